@@ -1,0 +1,87 @@
+// BSDFs: how a surface scatters light, in the shading frame (z = the shading normal).
+//
+// Directions point away from the surface. `wi` is the direction towards the camera side of the path
+// and `wo` the one towards the light, so that value() is one function of the path whatever end it
+// was traced from: a light subpath calls evaluate(toCamera, toLight) all the same and reads its own
+// sampling density from `pdfReverse`.
+#pragma once
+
+#include <span>
+#include <string>
+#include <variant>
+
+#include "render/bsdf/bsdf_types.h"
+#include "render/bsdf/conductor.h"
+#include "render/bsdf/dielectric.h"
+#include "render/bsdf/diffuse.h"
+#include "render/bsdf/phong.h"
+#include "render/bsdf/plastic.h"
+#include "render/bsdf/rough_conductor.h"
+#include "render/bsdf/rough_dielectric.h"
+#include "render/bsdf/rough_plastic.h"
+#include "render/scene/plugin.h"
+
+namespace h2mc {
+
+// What each alternative provides (B = the struct, all const):
+//
+//   static constexpr int kLobes;             // number of lobes, indexed 0 .. kLobes - 1
+//   bool isDelta(int lobe);                  // a mirror-like lobe
+//   bool hasNonDelta();                      // evaluate() can be non-zero: connections are worth it
+//   bool transmits();                        // can scatter to the other side
+//
+//   // f(wi, wo) |cos(wo)| of all non-delta lobes together (radiance flowing from wo to wi, with the
+//   // factor (eta_i/eta_o)^2 of refraction), and the solid-angle densities with which sampling
+//   // draws wo given wi (pdf) and wi given wo (pdfReverse), lobe probabilities included.
+//   // Zero where there is no scattering; finite for all unit vectors.
+//   template <class T> BsdfValue<T> evaluate(const Vec2<T>& uv, const Vec3<T>& wi, const Vec3<T>& wo);
+//
+//   // The lobe drawn for wi with the choice coordinate in [0, 1); (u0, u1) are the direction's
+//   // coordinates, which some lobes' probabilities depend on (roughdielectric's facet).
+//   int chooseLobe(const Vec2f& uv, const Vec3f& wi, float u0, float u1, float choice);
+//
+//   // The direction that the non-delta lobe draws from (u0, u1) in [0, 1)^2. u1 is an azimuth: it
+//   // wraps. May return a direction that evaluate() gives zero for.
+//   template <class T> Vec3<T> sample(const Vec2<T>& uv, const Vec3<T>& wi, int lobe, const T& u0,
+//                                     const T& u1);
+//
+//   // Density of drawing wo through this lobe: its share of evaluate().pdf, the probability of the
+//   // lobe included. Zero for delta lobes.
+//   template <class T> T lobePdf(const Vec2<T>& uv, const Vec3<T>& wi, const Vec3<T>& wo, int lobe);
+//
+//   // (u0, u1) with sample(..., u0, u1) == wo; false when the lobe cannot draw wo. 
+//   bool invert(const Vec2f& uv, const Vec3f& wi, const Vec3f& wo, int lobe, Vec2f& u);
+//
+//   // Delta lobes: the direction, the coefficient of radiance transport from wo to wi (Fresnel
+//   // reflectance, or transmittance with (eta_i/eta_o)^2; no cosine, nothing divided by), the same
+//   // for importance (without the eta factor), and the probability that chooseLobe picks it.
+//   template <class T> DeltaSample<T> sampleDelta(const Vec2<T>& uv, const Vec3<T>& wi, int lobe);
+//
+//   // A number that orders BSDFs by how concentrated they are: the lobe's width in radians
+//   // (diffuse: pi/2, delta: 0). For lobe `lobe`.
+//   float width(int lobe);
+//   Rgbf albedo();                           // rough estimate, for statistics and `h2mc info`
+using Bsdf = std::variant<Diffuse, Phong, RoughConductor, RoughDielectric, Conductor, Dielectric,
+                          Plastic, RoughPlastic>;
+
+// A surface's material: one BSDF a side, and an opacity. `twosided` is front == back.
+struct Material {
+  std::string name;               // id or plugin name, for messages
+  std::string plugin;             // as the scene named it
+  int front = -1;                 // index into Scene::bsdfs; -1 scatters nothing
+  int back = -1;                  // for wi.z < 0; -1: no twosided, the front BSDF sees wi.z < 0 itself
+  bool twosided = false;
+  TexturePtr opacity;             // null: opaque. Otherwise the share of light that meets the BSDF
+};
+
+// Every BSDF a scene file can name. twosided and mask, which make no BSDF of their own, are read by
+// the scene reader, their tables are here too.
+struct BsdfPlugin {
+  std::string_view name, description;
+  std::span<const Parameter> parameters;
+  Bsdf (*create)(const Properties&);  // null for twosided and mask
+  int nestedBsdfs = 0;
+};
+std::span<const BsdfPlugin> bsdfPlugins();
+
+}  // namespace h2mc

@@ -1,0 +1,44 @@
+// Shapes in world space. Transforms are applied when the scene is read.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "render/core/types.h"
+
+namespace h2mc {
+
+struct TriangleMesh {
+  std::vector<Vec3f> positions;
+  std::vector<Vec3f> normals;  // empty, or one a vertex, unit length: shading normals
+  std::vector<Vec2f> uvs;      // empty, or one a vertex
+  std::vector<glm::uvec3> triangles;
+  // Two triangles that make one parallelogram (0,1,2), (2,3,0): sampled as one surface, so that
+  // the map from primary coordinates to points has no seam.
+  bool parallelogram = false;
+};
+
+struct Sphere {
+  Vec3f center{0};
+  float radius = 1;
+  bool flipNormals = false;
+  glm::mat3 toLocal{1};  // rotation to the frame of the texture coordinates
+};
+
+// The image of the unit disk in z = 0 under an affine map: p = center + x * axisX + y * axisY.
+struct Disk {
+  Vec3f center{0};
+  Vec3f axisX{1, 0, 0};
+  Vec3f axisY{0, 1, 0};
+  Vec3f normal{0, 0, 1};  // unit, flipped already where the scene says so
+};
+
+struct Shape {
+  std::string name;  // id or plugin name with file, for messages
+  std::variant<TriangleMesh, Sphere, Disk> geometry;
+  int material = -1;  // index into Scene::materials
+  int light = -1;     // index into Scene::lights of the area light on it, or -1
+};
+
+}  // namespace h2mc

@@ -1,0 +1,22 @@
+// Pictures in memory.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/core/types.h"
+
+namespace h2mc {
+
+// Linear RGB, row by row from the top.
+struct Image {
+  int width = 0, height = 0;
+  std::vector<Rgbf> pixels;
+
+  Image() = default;
+  Image(int w, int h) : width(w), height(h), pixels(static_cast<std::size_t>(w) * h, Rgbf(0)) {}
+  Rgbf& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * width + x]; }
+  const Rgbf& at(int x, int y) const { return pixels[static_cast<std::size_t>(y) * width + x]; }
+};
+
+}  // namespace h2mc

@@ -1,0 +1,62 @@
+// Lights: where light comes from. Densities do not include the probability of choosing the light.
+#pragma once
+
+#include <span>
+#include <string>
+#include <variant>
+
+#include "render/light/light_types.h"
+#include "render/light/area_light.h"
+#include "render/light/constant_light.h"
+#include "render/light/directional_light.h"
+#include "render/light/envmap_light.h"
+#include "render/light/point_light.h"
+#include "render/light/spot_light.h"
+#include "render/scene/plugin.h"
+
+namespace h2mc {
+
+// What each alternative provides (all const):
+//
+//   bool isDelta();      // no path can hit it: point, spot, directional
+//   bool isInfinite();   // no position: directional, constant, envmap
+//   bool isEnvironment();  // seen by rays that leave the scene: constant, envmap
+//   float power(const SceneBounds&);  // luminance of the flux (an estimate is enough), > 0 if it emits
+//
+//   // Light arriving at the point `reference`, sampled with u in [0,1)^2 (technique s = 1).
+//   // `primitive` is the discrete choice made by choosePrimitive(). 
+//   template <class T> DirectLight<T> sampleDirect(const LightContext&, PrimitiveId primitive,
+//                                                 const Vec3<T>& reference, const T& u0, const T& u1);
+//
+//   // A ray leaving the light: u0, u1 place its origin, v0, v1 its direction (s >= 2). Point lights
+//   // use v only, directional ones u only.
+//   template <class T> EmittedRay<T> sampleEmission(const LightContext&, PrimitiveId primitive,
+//                                                   const T& u0, const T& u1, const T& v0, const T& v1);
+//
+//   // Radiance and densities of a path that hits the light (s = 0): for area lights at the surface
+//   // point, seen along unit `direction` (from the previous vertex to the light); for environments
+//   // along `direction`, the point is not used. Zero radiance on the dark side.
+//   template <class T> LightHit<T> hit(const LightContext&, const SurfacePoint<T>&,
+//                                      const Vec3<T>& direction);
+//
+//   // The discrete choice within the light from a coordinate in [0,1): an area light's triangle.
+//   PrimitiveId choosePrimitive(const LightContext&, float choice);
+//
+//   // The inverses, for mutations that move vertices: coordinates that give back the sampled point
+//   // or ray; false where the light cannot have made it. `choice` lies in the primitive's interval.
+//   bool invertDirect(const LightContext&, PrimitiveId, const Vec3f& reference,
+//                     const Vec3f& direction, float distance, Vec2f& u, float& choice);
+//   bool invertEmission(const LightContext&, PrimitiveId, const Vec3f& origin,
+//                       const Vec3f& direction, Vec2f& u, Vec2f& v, float& choice);
+//
+//   // Which of (u0, u1) of sampleDirect and (u0, u1, v0, v1) of sampleEmission are angles, so that 0
+//   // and 1 are the same point: bit i for the i-th.
+//   unsigned wrapsDirect(const LightContext&);
+//   unsigned wrapsEmission(const LightContext&);
+using Light = std::variant<AreaLight, PointLight, SpotLight, DirectionalLight, ConstantLight,
+                           EnvmapLight>;
+
+// Every light a scene file can name.
+std::span<const Plugin<Light>> lightPlugins();
+
+}  // namespace h2mc

@@ -1,0 +1,59 @@
+// What lights return, and what they know of the scene.
+//
+// The densities are the ones that the recursive MIS weights of bidirectional path tracing need
+// [Georgiev 2012, "Implementing Vertex Connection and Merging"].
+#pragma once
+
+#include <limits>
+#include <span>
+
+#include "render/geometry/shape.h"
+#include "render/geometry/surface_point.h"
+
+namespace h2mc {
+
+// A sphere around everything in the scene.
+struct SceneBounds {
+  Vec3f center{0};
+  float radius = 1;
+};
+
+// What a light may ask of the scene it stands in.
+struct LightContext {
+  std::span<const Shape> shapes;
+  SceneBounds bounds;
+};
+
+template <class T>
+struct DirectLight {
+  Vec3<T> direction;  // unit, from the reference point to the light
+  T distance;         // to the light; a value beyond the scene for infinite lights
+  Rgb<T> radiance;    // radiance; intensity for point and spot, irradiance for directional lights
+  T directPdf;        // per solid angle at the reference point; distance^2 for point and spot lights,
+                      // 1 for directional ones, so that radiance / directPdf is what arrives
+  T emissionPdf;      // with which sampleEmission makes this ray: per area and solid angle; for a point
+                      // light per solid angle, for a directional one per area
+  T cosLight;         // |cos| between the light's geometric normal and the ray; 1 without a surface
+};
+
+template <class T>
+struct EmittedRay {
+  Vec3<T> origin;
+  Vec3<T> direction;  // unit
+  Vec3<T> normal;     // of the emitting surface, for offsetting the ray; zero without a surface
+  Rgb<T> power;       // radiance (intensity, irradiance) times cosLight: what divided by emissionPdf is
+                      // the flux that the ray carries
+  T emissionPdf;      // as above
+  T directPdf;        // of the origin as a direct sample: per area for area lights (1 / area), per
+                      // solid angle for infinite ones, 1 for delta lights
+  T cosLight;
+};
+
+template <class T>
+struct LightHit {
+  Rgb<T> radiance;
+  T directPdf;    // per area for area lights, per solid angle for environments
+  T emissionPdf;  // per area and solid angle
+};
+
+}  // namespace h2mc

@@ -1,0 +1,49 @@
+// A scene as the integrators see it: read, checked, in world space, ready to trace.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/bsdf/bsdf.h"
+#include "render/camera/camera.h"
+#include "render/camera/film_settings.h"
+#include "render/geometry/shape.h"
+#include "render/light/light.h"
+#include "render/light/light_picker.h"
+#include "render/scene/option_set.h"
+
+namespace h2mc {
+
+class RayTracer;
+
+struct Scene {
+  Scene();
+  ~Scene();
+  Scene(Scene&&) noexcept;
+  Scene& operator=(Scene&&) noexcept;
+
+  std::string file;  // the scene file's path as given
+  Camera camera;
+  FilmSettings film;
+  std::vector<Shape> shapes;
+  std::vector<Material> materials;
+  std::vector<Bsdf> bsdfs;
+  std::vector<Light> lights;
+  int environment = -1;  // index of the constant or envmap light, or -1
+  OptionSet integrator;  // what the scene asks for; integrator() is empty when it does not say
+  std::vector<std::string> notes;  // accepted and not used, left out because nothing needs it
+
+  // Made by finish():
+  SceneBounds bounds;
+  LightPicker lightPicker;
+  std::unique_ptr<RayTracer> tracer;
+
+  LightContext lightContext() const { return {shapes, bounds}; }
+
+  // Computes what follows from the parts: bounds, light probabilities, the tracer. Call once, when
+  // shapes, materials and lights are in place. Throws std::runtime_error if Embree fails.
+  void finish();
+};
+
+}  // namespace h2mc
