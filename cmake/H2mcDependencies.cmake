@@ -1,0 +1,26 @@
+# Every library the renderer stands on. All are packages of Debian 12; scripts/packages.txt lists them.
+
+find_package(Threads REQUIRED)
+
+find_package(embree 3 CONFIG QUIET)
+if(NOT embree_FOUND)
+  find_package(embree 4 CONFIG REQUIRED)
+endif()
+string(REGEX MATCH "^[0-9]+" H2MC_EMBREE_MAJOR "${embree_VERSION}")
+message(STATUS "Embree ${embree_VERSION}")
+
+# Debian's Imath reports at length that its Python bindings, which nobody asked for, are absent.
+set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
+find_package(OpenImageIO MODULE REQUIRED)
+find_package(OpenEXR CONFIG REQUIRED)
+unset(CMAKE_MESSAGE_LOG_LEVEL)
+message(STATUS "OpenImageIO ${OpenImageIO_VERSION}, OpenEXR ${OpenEXR_VERSION}")
+
+find_package(TBB CONFIG REQUIRED)
+find_package(glm CONFIG REQUIRED)
+find_package(pugixml CONFIG REQUIRED)
+find_package(ZLIB REQUIRED)
+find_package(fmt CONFIG REQUIRED)
+find_package(spdlog CONFIG REQUIRED)
+find_package(nlohmann_json CONFIG REQUIRED)
+find_package(CLI11 CONFIG REQUIRED)
