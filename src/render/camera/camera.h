@@ -23,7 +23,7 @@ class Camera {
   Vec3<T> direction(const T& filmX, const T& filmY) const {
     const T x = (filmX * Scalar<T>(-2) + Scalar<T>(1)) * Scalar<T>(tanX_);
     const T y = (filmY * Scalar<T>(-2) + Scalar<T>(1)) * Scalar<T>(tanY_);
-    return normalize(plain<T>(right_) * x + plain<T>(up_) * y + plain<T>(forward_));
+    return normalize(plain<T>(left_) * x + plain<T>(up_) * y + plain<T>(forward_));
   }
 
   // Cosine between a unit direction and the optical axis.
@@ -47,7 +47,7 @@ class Camera {
   Vec2<T> filmPosition(const Vec3<T>& direction) const {
     using S = Scalar<T>;
     const T z = dot(plain<T>(forward_), direction);
-    const T x = dot(plain<T>(right_), direction) / z * S(1 / tanX_);
+    const T x = dot(plain<T>(left_), direction) / z * S(1 / tanX_);
     const T y = dot(plain<T>(up_), direction) / z * S(1 / tanY_);
     return {(x - S(1)) * S(-0.5), (y - S(1)) * S(-0.5)};
   }
@@ -60,7 +60,7 @@ class Camera {
   float shutterOpen = 0, shutterClose = 0;
 
  private:
-  Vec3f position_{0}, right_{1, 0, 0}, up_{0, 1, 0}, forward_{0, 0, 1};
+  Vec3f position_{0}, left_{1, 0, 0}, up_{0, 1, 0}, forward_{0, 0, 1};
   float tanX_ = 1, tanY_ = 1, filmArea_ = 4;
 };
 

@@ -1,0 +1,65 @@
+// What every integrator offers to the commands.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+
+#include "render/image/image.h"
+#include "render/scene/option_set.h"
+
+namespace h2mc {
+
+struct Scene;
+
+// How long to render: at most one is non-zero; all zero means the integrator's own default.
+struct RenderBudget {
+  double seconds = 0;
+  long long samplesPerPixel = 0;
+  long long mutationsPerPixel = 0;
+};
+
+struct RenderProgress {
+  double fraction;  // of the budget, 0 .. 1
+  double elapsedSeconds;
+  double rate;  // samples or mutations per second
+  std::string rateUnit;
+};
+
+struct RenderRequest {
+  RenderBudget budget;
+  std::uint64_t seed = 0;
+  int threads = 0;  // 0: one a core
+  std::function<void(const RenderProgress&)> progress;  // called from the rendering thread; may be empty
+  const std::atomic<bool>* stop = nullptr;              // set: end in order, keep what was done
+};
+
+struct RenderResult {
+  Image image;
+  double wallSeconds = 0, cpuSeconds = 0;
+  long long samples = 0;   // all of them, not a pixel
+  std::string sampleUnit;  // "samples" or "mutations"
+  double meanLuminance = 0, meanLuminanceError = 0;  // of the image; its standard error
+  bool interrupted = false;
+  nlohmann::json statistics;
+};
+
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+  virtual RenderResult render(const Scene& scene, const RenderRequest& request) = 0;
+};
+
+struct IntegratorFactory {
+  IntegratorPlugin plugin;
+  std::unique_ptr<Integrator> (*create)(const OptionSet&);
+};
+
+// path and bdpt; the Metropolis methods are in mcmc/integrators.h.
+std::span<const IntegratorFactory> renderIntegrators();
+
+}  // namespace h2mc
