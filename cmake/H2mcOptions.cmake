@@ -5,9 +5,8 @@ option(H2MC_NATIVE "Compile for the processor of this machine (-march=native)" O
 set(H2MC_ARCH "" CACHE STRING "Instruction set when H2MC_NATIVE is off, such as x86-64-v3; empty for the compiler's own")
 option(H2MC_WERROR "Treat warnings as errors" OFF)
 set(H2MC_SANITIZE "" CACHE STRING "Sanitizers to build with, such as address,undefined")
-option(H2MC_BUILD_TESTS "Build the tests" ON)
-find_package(benchmark CONFIG QUIET)
-option(H2MC_BUILD_BENCHMARKS "Build the benchmarks (Google Benchmark)" ${benchmark_FOUND})
+option(H2MC_BUILD_TESTS "Build the tests, where GoogleTest is found" ON)
+option(H2MC_BUILD_BENCHMARKS "Build the benchmarks, where Google Benchmark is found" ON)
 set(H2MC_DATA_DIR "${CMAKE_SOURCE_DIR}/../shared/data" CACHE PATH "Published scenes and reference images, for the tests")
 
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
