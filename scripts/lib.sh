@@ -69,7 +69,7 @@ run_logged() {
   "$@" 2>&1 </dev/null | tee "$log" | show_progress
   status=${PIPESTATUS[0]}
   if ((status)); then
-    grep -Ev '^\[[0-9]+/[0-9]+\] ' "$log" >&2
+    grep -Ev '^\[ *[0-9]+(/[0-9]+|%)\] ' "$log" >&2
     say "failed: $*"
   fi
   return "$status"
