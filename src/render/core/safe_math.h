@@ -1,0 +1,50 @@
+// Functions whose derivatives stay finite at the border of their domain.
+#pragma once
+
+#include <cmath>
+
+#include "render/core/types.h"
+
+namespace h2mc {
+
+// sqrt(x); 0 for negative x. Passive below 1e-12, where the second derivative would be near
+// overflow: such a coordinate is treated as if it did not move.
+template <class T>
+T safeSqrt(const T& x) {
+  using S = Scalar<T>;
+  const S v = value(x);
+  if (v > S(1e-12)) return ad::sqrt(x);
+  return T(v > 0 ? std::sqrt(v) : S(0));
+}
+
+// The angle of (x, y) in [0, 1) turns; passive at the origin.
+template <class T>
+T turns(const T& y, const T& x) {
+  using S = Scalar<T>;
+  const S vx = value(x), vy = value(y);
+  if (vx * vx + vy * vy < S(1e-14)) return T(S(0));
+  const T t = ad::atan2(y, x) * S(0.5 / std::numbers::pi);
+  // A tiny negative angle rounds to a whole turn.
+  return value(t) >= 0 ? t : value(t) + S(1) < S(1) ? T(t + S(1)) : T(S(0));
+}
+
+// A plain vector as one of T.
+template <class T>
+Vec3<T> lift(const Vec3<Scalar<T>>& a) {
+  return {T(a.x), T(a.y), T(a.z)};
+}
+
+// The derivatives of a with another value: a more exact one.
+template <class T>
+Vec3<T> withValue(Vec3<T> a, const Vec3<Scalar<T>>& v) {
+  if constexpr (ad::isDual<T>) {
+    a.x.v = v.x;
+    a.y.v = v.y;
+    a.z.v = v.z;
+    return a;
+  } else {
+    return v;
+  }
+}
+
+}  // namespace h2mc
