@@ -1,0 +1,46 @@
+// The program's commands. Each is one file; they share only what is declared here.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "render/scene/option_set.h"
+
+namespace CLI {
+class App;
+}
+
+namespace h2mc {
+
+enum ExitCode {
+  kSuccess = 0,
+  kCheckFailed = 1,  // diff: the images differ by more than the tolerance
+  kBadInput = 2,     // options, scene, images, paths
+  kFailed = 3,       // anything else: memory, disk, a mistake in the program
+  kInterrupted = 130,
+};
+
+// The user's input is wrong; what() is the whole message.
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Each declares a subcommand. When the command line names it, `run` becomes what executes it and
+// returns the exit code.
+using Run = std::function<int()>;
+void addRenderCommand(CLI::App& app, Run& run);
+void addInfoCommand(CLI::App& app, Run& run);
+void addListCommand(CLI::App& app, Run& run);
+void addDiffCommand(CLI::App& app, Run& run);
+
+// The tables of all integrators, for the scene reader.
+std::vector<IntegratorPlugin> integratorPlugins();
+
+// What `-D name=value` means to render and info. Throws InputError.
+std::map<std::string, std::string> parseDefines(const std::vector<std::string>& definitions);
+
+}  // namespace h2mc

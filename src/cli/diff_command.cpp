@@ -1,0 +1,107 @@
+// h2mc diff
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+
+#include "cli/commands.h"
+#include "render/image/image_io.h"
+#include "render/image/metrics.h"
+#include "render/scene/suggestion.h"
+
+namespace h2mc {
+namespace {
+
+struct DiffOptions {
+  std::string image, reference, metric, picture, pictureKind = "signed";
+  std::optional<double> tolerance;
+};
+
+const Metric& metricNamed(const std::string& name) {
+  if (const Metric* metric = findMetric(name)) return *metric;
+  Names names;
+  for (const Metric& metric : metrics()) names.emplace_back(metric.name);
+  names.emplace_back("all");
+  throw InputError("unknown metric \"" + name + "\"; " + suggestion(name, names));
+}
+
+void warnOfNonFinite(const std::string& path, const Image& image) {
+  if (const long long count = countNonFinite(image))
+    fmt::print(stderr, "h2mc: {} of {} pixels of \"{}\" are not finite\n", count,
+               image.pixels.size(), path);
+}
+
+int diff(const DiffOptions& options) {
+  // A tolerance is for one metric; what is not asked for is all of them.
+  std::vector<const Metric*> chosen;
+  if (options.metric == "all" || (options.metric.empty() && !options.tolerance)) {
+    for (const Metric& metric : metrics()) chosen.push_back(&metric);
+  } else {
+    chosen.push_back(options.metric.empty() ? &metrics().front() : &metricNamed(options.metric));
+  }
+  if (options.tolerance && chosen.size() > 1)
+    throw InputError("--tolerance needs one metric: give --metric NAME");
+  if (!options.picture.empty()) checkWritable(options.picture);
+
+  const Image image = readImage(options.image), reference = readImage(options.reference);
+  if (image.width != reference.width || image.height != reference.height)
+    throw InputError(fmt::format("the images differ in size: \"{}\" is {} x {}, \"{}\" is {} x {}",
+                                 options.image, image.width, image.height, options.reference,
+                                 reference.width, reference.height));
+  warnOfNonFinite(options.image, image);
+  warnOfNonFinite(options.reference, reference);
+
+  bool within = true;
+  for (const Metric* metric : chosen) {
+    const double value = metric->compute(image, reference);
+    fmt::print("{:<16}{:.6g}\n", metric->name, value);
+    // Written so that what is not a number is never within.
+    if (options.tolerance)
+      within = metric->higherIsBetter ? value >= *options.tolerance : value <= *options.tolerance;
+  }
+  const double a = meanLuminance(image), r = meanLuminance(reference);
+  fmt::print("{:<16}{:.6g}\n{:<16}{:.6g}\n{:<16}{:.6g}\n", "mean", a, "mean-reference", r,
+             "mean-ratio", a / r);
+
+  if (!options.picture.empty())
+    writeImage(options.picture,
+               differencePicture(image, reference,
+                                 options.pictureKind == "signed" ? DifferencePicture::kSigned
+                                                                 : DifferencePicture::kRelative));
+  if (within) return kSuccess;
+  fmt::print(stderr, "h2mc: {} is {} the tolerance {:g}\n", chosen.front()->name,
+             chosen.front()->higherIsBetter ? "not above" : "not within", *options.tolerance);
+  return kCheckFailed;
+}
+
+}  // namespace
+
+void addDiffCommand(CLI::App& app, Run& run) {
+  auto options = std::make_shared<DiffOptions>();
+  CLI::App* command = app.add_subcommand("diff", "Error of an image against a reference");
+  command->add_option("IMAGE", options->image, "Image of any format that OpenImageIO reads")
+      ->required();
+  command->add_option("REFERENCE", options->reference, "Reference of the same size")->required();
+  command->add_option("--metric", options->metric,
+                      "One of the names below, or all (default: all; with --tolerance: relmse)");
+  command->add_option("--tolerance", options->tolerance,
+                      "Exit with code 1 if the metric is above (psnr: below) this");
+  command->add_option("-o,--output", options->picture, "Write the difference picture");
+  command
+      ->add_option("--picture", options->pictureKind,
+                   "signed: of luminance, red where IMAGE is brighter, blue where it is darker; "
+                   "relative: size of the relative error, logarithmic")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"signed", "relative"}));
+  std::string footer =
+      "Metrics (a: image, r: reference, e = a - r, m: the reference's mean luminance; means over "
+      "pixels and channels):\n";
+  for (const Metric& metric : metrics())
+    footer += fmt::format("  {:<16}{}\n", metric.name, metric.description);
+  footer += "Mean luminances and their ratio are printed with them.";
+  command->footer(footer);
+  command->callback([options, &run] { run = [options] { return diff(*options); }; });
+}
+
+}  // namespace h2mc

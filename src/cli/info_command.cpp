@@ -1,0 +1,161 @@
+// h2mc info
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/statistics_table.h"
+#include "render/scene/scene.h"
+#include "render/scene/scene_reader.h"
+
+namespace h2mc {
+namespace {
+
+struct InfoOptions {
+  std::string scene;
+  std::vector<std::string> defines;
+};
+
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
+};
+
+const char* kindOf(const Shape& shape) {
+  return std::visit(
+      Overloaded{[](const TriangleMesh&) { return "triangle mesh"; },
+                 [](const Sphere&) { return "sphere"; }, [](const Disk&) { return "disk"; }},
+      shape.geometry);
+}
+
+const char* kindOf(const Light& light) {
+  return std::visit(
+      Overloaded{[](const AreaLight&) { return "area"; }, [](const PointLight&) { return "point"; },
+                 [](const SpotLight&) { return "spot"; },
+                 [](const DirectionalLight&) { return "directional"; },
+                 [](const ConstantLight&) { return "constant"; },
+                 [](const EnvmapLight&) { return "envmap"; }},
+      light);
+}
+
+const char* nameOf(Filter::Kind kind) {
+  switch (kind) {
+    case Filter::Kind::kBox:
+      return "box";
+    case Filter::Kind::kTent:
+      return "tent";
+    case Filter::Kind::kGaussian:
+      return "gaussian";
+    case Filter::Kind::kMitchell:
+      return "mitchell";
+  }
+  return "?";
+}
+
+std::string text(const Vec3f& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z); }
+
+void line(const char* name, const std::string& content) { fmt::print("{:<14}{}\n", name, content); }
+
+// "3 area, 1 envmap"
+std::string text(const std::map<std::string, long long>& counts) {
+  std::string result;
+  for (const auto& [name, count] : counts)
+    result += fmt::format("{}{} {}", result.empty() ? "" : ", ", withSeparators(count), name);
+  return result.empty() ? "none" : result;
+}
+
+void printGeometry(const Scene& scene) {
+  std::map<std::string, long long> kinds;
+  long long triangles = 0, vertices = 0;
+  for (const Shape& shape : scene.shapes) {
+    ++kinds[kindOf(shape)];
+    if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
+      triangles += static_cast<long long>(mesh->triangles.size());
+      vertices += static_cast<long long>(mesh->positions.size());
+    }
+  }
+  line("shapes", fmt::format("{} ({})", withSeparators(static_cast<long long>(scene.shapes.size())),
+                             text(kinds)));
+  line("triangles",
+       fmt::format("{}, {} vertices", withSeparators(triangles), withSeparators(vertices)));
+  line("bounds",
+       fmt::format("centre {}, radius {:.6g}", text(scene.bounds.center), scene.bounds.radius));
+}
+
+void printMaterials(const Scene& scene) {
+  std::map<std::string, long long> plugins;
+  long long twosided = 0, masked = 0;
+  for (const Material& material : scene.materials) {
+    ++plugins[material.plugin];
+    twosided += material.twosided;
+    masked += material.opacity != nullptr;
+  }
+  std::string more;
+  if (twosided > 0) more += fmt::format(", {} two-sided", twosided);
+  if (masked > 0) more += fmt::format(", {} with opacity", masked);
+  line("materials", fmt::format("{} ({}){}", scene.materials.size(), text(plugins), more));
+}
+
+void printLights(const Scene& scene) {
+  std::map<std::string, long long> kinds;
+  for (const Light& light : scene.lights) ++kinds[kindOf(light)];
+  line("lights", fmt::format("{} ({})", scene.lights.size(), text(kinds)));
+}
+
+void printCamera(const Scene& scene) {
+  const Camera& camera = scene.camera;
+  line("camera", fmt::format("perspective at {} towards {}", text(camera.position()),
+                             text(camera.forward())));
+  line("clipping", fmt::format("{:g} to {:g}", camera.nearClip, camera.farClip));
+  line("shutter", fmt::format("{:g} to {:g}", camera.shutterOpen, camera.shutterClose));
+  const FilmSettings& film = scene.film;
+  line("film", fmt::format("{} x {}, {} filter of radius {:g}", film.width, film.height,
+                           nameOf(film.filter.kind), film.filter.radius));
+}
+
+void printIntegrator(const OptionSet& integrator) {
+  if (integrator.integrator().empty()) {
+    line("integrator", "not given");
+    return;
+  }
+  std::string options;
+  for (const auto& [name, value] : integrator.values())
+    if (integrator.given(name))
+      options += fmt::format("{}{}={}", options.empty() ? ":" : ",", name, value);
+  line("integrator", integrator.integrator() + options);
+}
+
+int info(const InfoOptions& options) {
+  const std::vector<IntegratorPlugin> integrators = integratorPlugins();
+  ReadOptions read;
+  read.defines = parseDefines(options.defines);
+  read.integrators = integrators;
+  const Scene scene = readScene(options.scene, read);
+
+  line("scene", options.scene);
+  printGeometry(scene);
+  printMaterials(scene);
+  printLights(scene);
+  printCamera(scene);
+  line("moving", "no");  // shapes have one place each
+  printIntegrator(scene.integrator);
+  for (const std::string& note : scene.notes) line("note", note);
+  return kSuccess;
+}
+
+}  // namespace
+
+void addInfoCommand(CLI::App& app, Run& run) {
+  auto options = std::make_shared<InfoOptions>();
+  CLI::App* command = app.add_subcommand("info", "What a scene file holds, as it was read");
+  command->add_option("SCENE", options->scene, "Scene file (Mitsuba XML)")->required();
+  command
+      ->add_option("-D", options->defines,
+                   "name=value: what the scene's $name stands for; repeatable")
+      ->allow_extra_args(false);
+  command->callback([options, &run] { run = [options] { return info(*options); }; });
+}
+
+}  // namespace h2mc

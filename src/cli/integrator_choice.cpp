@@ -1,0 +1,82 @@
+#include "cli/integrator_choice.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "cli/commands.h"
+#include "mcmc/integrators.h"
+#include "render/scene/suggestion.h"
+
+namespace h2mc {
+namespace {
+
+constexpr const char* kDefaultIntegrator = "h2mc";
+
+struct Wish {
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> options;
+};
+
+Wish parse(const std::string& text) {
+  Wish wish;
+  const std::size_t colon = text.find(':');
+  wish.name = text.substr(0, colon);
+  if (colon == std::string::npos) return wish;
+  for (std::size_t begin = colon + 1; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string option = text.substr(begin, end - begin);
+    const std::size_t equals = option.find('=');
+    if (equals == 0 || equals == std::string::npos)
+      throw InputError("--integrator " + text + ": expected option=value, got \"" + option + "\"");
+    wish.options.emplace_back(option.substr(0, equals), option.substr(equals + 1));
+    begin = end + 1;
+  }
+  return wish;
+}
+
+const IntegratorFactory& findFactory(const std::string& name) {
+  Names names;
+  for (const IntegratorFactory& factory : allIntegrators()) {
+    if (factory.plugin.name == name) return factory;
+    names.emplace_back(factory.plugin.name);
+  }
+  throw InputError("unknown integrator \"" + name + "\"; " + suggestion(name, names));
+}
+
+void apply(const Wish& wish, OptionSet& options) {
+  for (const auto& [name, value] : wish.options) options.set(name, value);
+}
+
+}  // namespace
+
+IntegratorChoice chooseIntegrator(const std::string& wishText, const OptionSet& sceneOptions) {
+  const Wish wish = parse(wishText);
+  std::string name = wish.name;
+  if (name.empty()) name = sceneOptions.integrator();
+  if (name.empty()) name = kDefaultIntegrator;
+  const IntegratorFactory& factory = findFactory(name);
+
+  OptionSet options(factory.plugin);
+  for (const auto& [option, value] : sceneOptions.values())
+    if (sceneOptions.given(option) && options.has(option)) options.set(option, value);
+  apply(wish, options);
+  std::unique_ptr<Integrator> integrator = factory.create(options);
+  return {std::move(options), std::move(integrator)};
+}
+
+std::string optionText(const OptionSet& options) {
+  std::string text;
+  for (const auto& [name, value] : options.values())
+    text += (text.empty() ? "" : ",") + name + "=" + value;
+  return text;
+}
+
+void checkIntegratorWish(const std::string& text) {
+  const Wish wish = parse(text);
+  if (wish.name.empty()) return;
+  OptionSet options(findFactory(wish.name).plugin);
+  apply(wish, options);
+}
+
+}  // namespace h2mc

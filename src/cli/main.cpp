@@ -1,0 +1,101 @@
+// h2mc: Metropolis light transport steered by derivatives. The commands are in the files beside
+// this one.
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "cli/commands.h"
+#include "h2mc_version.h"
+#include "mcmc/integrators.h"
+#include "render/image/image_io.h"
+#include "render/scene/properties.h"
+
+namespace h2mc {
+
+std::vector<IntegratorPlugin> integratorPlugins() {
+  std::vector<IntegratorPlugin> plugins;
+  for (const IntegratorFactory& factory : allIntegrators()) plugins.push_back(factory.plugin);
+  return plugins;
+}
+
+std::map<std::string, std::string> parseDefines(const std::vector<std::string>& definitions) {
+  std::map<std::string, std::string> defines;
+  for (const std::string& definition : definitions) {
+    const std::size_t equals = definition.find('=');
+    if (equals == 0 || equals == std::string::npos)
+      throw InputError("-D " + definition + ": expected name=value");
+    defines[definition.substr(0, equals)] = definition.substr(equals + 1);
+  }
+  return defines;
+}
+
+namespace {
+
+int report(int exitCode, const char* message) {
+  std::fprintf(stderr, "h2mc: %s\n", message);
+  return exitCode;
+}
+
+// The command in which parsing went wrong, for the hint.
+std::string commandName(const CLI::App& app) {
+  const auto parsed = app.get_subcommands();
+  return parsed.empty() ? "h2mc" : "h2mc " + parsed.front()->get_name();
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Renders scenes by Metropolis light transport steered by derivatives.", "h2mc"};
+  app.set_version_flag("--version", "h2mc " H2MC_VERSION_STRING, "Print the version and exit");
+  app.set_help_flag("-h,--help", "Print this help and exit");
+  app.require_subcommand(1);
+  app.failure_message(CLI::FailureMessage::simple);
+  app.footer(
+      "`h2mc COMMAND --help` explains a command's options.\n"
+      "Exit codes: 0 done, 1 a check failed (diff --tolerance), 2 wrong input, 3 any other "
+      "failure,\n"
+      "130 interrupted.");
+  Run command;
+  addRenderCommand(app, command);
+  addInfoCommand(app, command);
+  addListCommand(app, command);
+  addDiffCommand(app, command);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    std::fprintf(stderr, "h2mc: %s\nTry `%s --help`.\n", e.what(), commandName(app).c_str());
+    return kBadInput;
+  }
+
+  try {
+    return command();
+  } catch (const InputError& e) {
+    return report(kBadInput, e.what());
+  } catch (const SceneError& e) {
+    return report(kBadInput, e.what());
+  } catch (const OptionError& e) {
+    return report(kBadInput, e.what());
+  } catch (const ImageError& e) {
+    return report(kBadInput, e.what());
+  }
+}
+
+}  // namespace
+}  // namespace h2mc
+
+int main(int argc, char** argv) {
+  try {
+    // Messages go to stderr: stdout is for data.
+    spdlog::set_default_logger(spdlog::stderr_color_mt("h2mc"));
+    spdlog::set_pattern("h2mc: %v");
+    return h2mc::run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return h2mc::report(h2mc::kFailed, "out of memory");
+  } catch (const std::exception& e) {
+    return h2mc::report(h2mc::kFailed, e.what());
+  }
+}

@@ -1,0 +1,266 @@
+// h2mc render
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "cli/commands.h"
+#include "cli/integrator_choice.h"
+#include "cli/progress_display.h"
+#include "cli/statistics_table.h"
+#include "cli/stop_signals.h"
+#include "h2mc_version.h"
+#include "render/image/atomic_file.h"
+#include "render/image/image_io.h"
+#include "render/scene/scene.h"
+#include "render/scene/scene_reader.h"
+
+namespace h2mc {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RenderOptions {
+  std::string scene, output, integrator, statistics;
+  RenderBudget budget;
+  std::uint64_t seed = 0;
+  int threads = 0;
+  int width = 0, height = 0;
+  double scale = 0;
+  std::vector<std::string> defines;
+  bool quiet = false, png = false;
+};
+
+void checkBudget(const RenderBudget& budget) {
+  const int given =
+      (budget.seconds > 0) + (budget.samplesPerPixel > 0) + (budget.mutationsPerPixel > 0);
+  if (given > 1)
+    throw InputError(
+        "--time, --samples-per-pixel and --mutations-per-pixel exclude one another: give one");
+}
+
+// The image, and the PNG beside it where that is another file.
+struct Outputs {
+  std::string image, png;
+};
+
+Outputs outputsOf(const RenderOptions& options) {
+  Outputs outputs;
+  outputs.image =
+      options.output.empty() ? fs::path(options.scene).stem().string() + ".exr" : options.output;
+  if (options.png) {
+    const std::string png = fs::path(outputs.image).replace_extension(".png").string();
+    if (png != outputs.image) outputs.png = png;
+  }
+  return outputs;
+}
+
+void checkOutputs(const Outputs& outputs, const std::string& statistics) {
+  checkWritable(outputs.image);
+  if (!outputs.png.empty()) checkWritable(outputs.png);
+  if (statistics.empty()) return;
+  try {
+    AtomicFile probe(statistics);
+  } catch (const std::exception& e) {
+    throw InputError(e.what());
+  }
+}
+
+Scene readSceneFor(const RenderOptions& options) {
+  const std::vector<IntegratorPlugin> integrators = integratorPlugins();
+  ReadOptions read;
+  read.defines = parseDefines(options.defines);
+  read.integrators = integrators;
+  read.width = options.width;
+  read.height = options.height;
+  read.scale = options.scale;
+  return readScene(options.scene, read);
+}
+
+ImageAttributes attributesOf(const RenderOptions& options, const OptionSet& integrator, int threads,
+                             const RenderResult& result) {
+  ImageAttributes attributes{
+      {"scene", options.scene},
+      {"integrator", integrator.integrator()},
+      {"integratorOptions", optionText(integrator)},
+      {"seed", std::to_string(options.seed)},  // 64 bits: no number of the format's holds them
+      {"threads", threads},
+      {"wallSeconds", result.wallSeconds},
+      {"cpuSeconds", result.cpuSeconds},
+      {"samples", static_cast<double>(result.samples)},
+      {"sampleUnit", result.sampleUnit},
+      {"meanLuminance", result.meanLuminance},
+      {"meanLuminanceError", result.meanLuminanceError},
+      {"interrupted", result.interrupted ? 1 : 0},
+      {"programVersion", std::string(H2MC_VERSION_STRING)},  // "version" is taken by OpenEXR
+  };
+  if (!options.defines.empty()) {
+    std::string text;
+    for (const std::string& define : options.defines) text += (text.empty() ? "" : " ") + define;
+    attributes["sceneDefines"] = text;
+  }
+  return attributes;
+}
+
+nlohmann::json statisticsOf(const RenderOptions& options, const Outputs& outputs,
+                            const OptionSet& integrator, int threads, const RenderResult& result) {
+  nlohmann::json parameters = nlohmann::json::object();
+  for (const auto& [name, value] : integrator.values()) parameters[name] = value;
+  return {
+      {"programVersion", H2MC_VERSION_STRING},
+      {"scene", options.scene},
+      {"image", outputs.image},
+      {"width", result.image.width},
+      {"height", result.image.height},
+      {"integrator", integrator.integrator()},
+      {"integratorOptions", parameters},
+      {"seed", options.seed},
+      {"threads", threads},
+      {"wallSeconds", result.wallSeconds},
+      {"cpuSeconds", result.cpuSeconds},
+      {"samples", result.samples},
+      {"sampleUnit", result.sampleUnit},
+      {"meanLuminance", result.meanLuminance},
+      {"meanLuminanceError", result.meanLuminanceError},
+      {"interrupted", result.interrupted},
+      {"statistics", result.statistics},
+  };
+}
+
+void printSummary(const Outputs& outputs, const RenderResult& result) {
+  const double seconds = std::max(result.wallSeconds, 1e-9);
+  fmt::print(stderr, "{}{}: {} x {}, {} {} in {} ({} CPU), {} {}/s\n", outputs.image,
+             result.interrupted ? " (interrupted)" : "", result.image.width, result.image.height,
+             withSeparators(result.samples), result.sampleUnit, duration(result.wallSeconds),
+             duration(result.cpuSeconds), withPrefix(static_cast<double>(result.samples) / seconds),
+             result.sampleUnit);
+  fmt::print(stderr, "mean luminance {:.6g} +- {:.2g}\n", result.meanLuminance,
+             result.meanLuminanceError);
+  if (result.statistics.is_structured() && !result.statistics.empty())
+    fmt::print(stderr, "{}", statisticsTable(result.statistics));
+}
+
+int render(const RenderOptions& options) {
+  if (options.quiet) spdlog::set_level(spdlog::level::err);
+  checkBudget(options.budget);
+  const Outputs outputs = outputsOf(options);
+  checkIntegratorWish(options.integrator);
+  checkOutputs(outputs, options.statistics);
+
+  const Scene scene = readSceneFor(options);
+  if (!options.quiet)
+    for (const std::string& note : scene.notes) fmt::print(stderr, "{}\n", note);
+  const IntegratorChoice choice = chooseIntegrator(options.integrator, scene.integrator);
+  const int threads = options.threads > 0
+                          ? options.threads
+                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  if (!options.quiet)
+    fmt::print(stderr, "{}: {} x {}, {}, seed {}, {} thread{}\n", options.scene, scene.film.width,
+               scene.film.height, choice.options.integrator(), options.seed, threads,
+               threads == 1 ? "" : "s");
+
+  // Until the files are written, so that a second signal leaves no half of one.
+  const StopSignals signals;
+  RenderResult result;
+  {
+    ProgressDisplay display(
+        options.quiet ? ProgressDisplay::Style::kNone : ProgressDisplay::styleOfStderr(),
+        options.budget.seconds);
+    RenderRequest request;
+    request.budget = options.budget;
+    request.seed = options.seed;
+    request.threads = threads;
+    request.stop = &StopSignals::requested();
+    request.progress = [&](const RenderProgress& progress) { display.update(progress); };
+    result = choice.integrator->render(scene, request);
+  }
+  if (result.interrupted && (result.image.width == 0 || result.samples == 0)) {
+    fmt::print(stderr, "h2mc: interrupted before there was an image\n");
+    return kInterrupted;
+  }
+
+  // The input was right, and so were the paths before the render: not the user's mistake.
+  try {
+    writeImage(outputs.image, result.image, attributesOf(options, choice.options, threads, result));
+    if (!outputs.png.empty()) writeImage(outputs.png, result.image);
+    if (!options.statistics.empty())
+      writeTextAtomically(
+          options.statistics,
+          statisticsOf(options, outputs, choice.options, threads, result).dump(2) + "\n");
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "h2mc: {}\n", e.what());
+    return kFailed;
+  }
+  if (!options.quiet) printSummary(outputs, result);
+  return result.interrupted ? kInterrupted : kSuccess;
+}
+
+}  // namespace
+
+void addRenderCommand(CLI::App& app, Run& run) {
+  auto options = std::make_shared<RenderOptions>();
+  CLI::App* command = app.add_subcommand("render", "Render a scene");
+  command->add_option("SCENE", options->scene, "Scene file (Mitsuba XML)")->required();
+  command->add_option(
+      "-o,--output", options->output,
+      "Image to write: .exr (32-bit float), .hdr or .png; default: the scene's name "
+      "with .exr, in the current folder");
+  command->add_flag("--png", options->png, "Write a PNG (sRGB) beside the image as well");
+  command->add_option("-i,--integrator", options->integrator,
+                      "NAME[:option=value,...]; `h2mc list integrators` shows them. Default: what "
+                      "the scene says, else h2mc");
+
+  const CLI::Validator positive(
+      [](std::string& text) -> std::string {
+        char* end = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        const bool number = !text.empty() && *end == '\0' && std::isfinite(value) && value > 0;
+        return number ? "" : "expected a number above 0, got \"" + text + "\"";
+      },
+      "");
+  auto* budget = command->add_option_group("Budget", "One of them; default: the integrator's own");
+  budget->add_option("-t,--time", options->budget.seconds, "Seconds to render for")
+      ->check(positive);
+  budget
+      ->add_option("-s,--samples-per-pixel", options->budget.samplesPerPixel,
+                   "Samples a pixel (path, bdpt)")
+      ->check(positive);
+  budget
+      ->add_option("-m,--mutations-per-pixel", options->budget.mutationsPerPixel,
+                   "Mutations a pixel (mmlt, h2mc)")
+      ->check(positive);
+
+  auto* width =
+      command->add_option("--width", options->width, "Width in pixels instead of the scene's")
+          ->check(positive);
+  auto* height =
+      command->add_option("--height", options->height, "Height in pixels instead of the scene's")
+          ->check(positive);
+  command->add_option("--scale", options->scale, "Factor on the scene's width and height")
+      ->check(positive)
+      ->excludes(width)
+      ->excludes(height);
+  command->add_option("--seed", options->seed, "Same scene, options and seed: same image")
+      ->capture_default_str();
+  command->add_option("--threads", options->threads, "Default: one a core")->check(positive);
+  command
+      ->add_option("-D", options->defines,
+                   "name=value: what the scene's $name stands for; repeatable")
+      ->allow_extra_args(false);
+  command->add_option("--stats", options->statistics, "JSON file to write the statistics to");
+  command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
+  command->footer(
+      "Ctrl-C ends the render, writes the image of what was done so far and exits with code 130.\n"
+      "\n"
+      "Examples:\n"
+      "  h2mc render scene.xml -o scene.exr --png --time 60\n"
+      "  h2mc render scene.xml -i mmlt:maxDepth=8 --mutations-per-pixel 256 -D width=512");
+  command->callback([options, &run] { run = [options] { return render(*options); }; });
+}
+
+}  // namespace h2mc
