@@ -1,0 +1,131 @@
+"""What the tests of the program share: running it, small scenes and images, EXR headers."""
+
+import os
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+BINARY = os.environ.get("H2MC_BINARY", "")
+SOURCE_DIR = os.environ.get("H2MC_SOURCE_DIR",
+                            os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+RING = os.path.join(SOURCE_DIR, "scenes", "ring", "ring.xml")
+INTEGRATORS = ("path", "bdpt", "mmlt", "h2mc")
+
+# A grey box without a front under a lamp, seen by a small film.
+SCENE = """<scene version="0.6.0">
+  <default name="width" value="24"/>
+  <default name="radiance" value="4"/>
+  <sensor type="perspective">
+    <float name="fov" value="40"/>
+    <transform name="toWorld"><lookat origin="0, 1, 5" target="0, 1, 0" up="0, 1, 0"/></transform>
+    <film type="hdrfilm">
+      <integer name="width" value="$width"/>
+      <integer name="height" value="16"/>
+      <rfilter type="box"/>
+    </film>
+  </sensor>
+  <bsdf type="diffuse" id="grey"><rgb name="reflectance" value="0.5, 0.5, 0.5"/></bsdf>
+  <shape type="rectangle">
+    <transform name="toWorld"><rotate x="1" angle="-90"/><scale value="2"/></transform>
+    <ref id="grey"/>
+  </shape>
+  <shape type="rectangle">
+    <transform name="toWorld"><scale value="2"/><translate z="-2"/></transform>
+    <ref id="grey"/>
+  </shape>
+  <shape type="sphere">
+    <point name="center" x="0" y="0.5" z="0"/>
+    <float name="radius" value="0.5"/>
+    <ref id="grey"/>
+  </shape>
+  <shape type="rectangle">
+    <transform name="toWorld"><rotate x="1" angle="90"/><translate y="3"/></transform>
+    <ref id="grey"/>
+    <emitter type="area"><rgb name="radiance" value="$radiance, $radiance, $radiance"/></emitter>
+  </shape>
+</scene>
+"""
+
+
+class Test(unittest.TestCase):
+    """Each test has a folder of its own, which is the current folder of what it runs."""
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="h2mc_cli_")
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as out:
+            out.write(text)
+        return name
+
+    def files(self):
+        return sorted(os.listdir(self.folder))
+
+    def run_h2mc(self, *arguments, timeout=300):
+        return subprocess.run([BINARY, *map(str, arguments)], cwd=self.folder, timeout=timeout,
+                              stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+
+    def succeeds(self, *arguments):
+        result = self.run_h2mc(*arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result
+
+    def fails(self, code, *arguments, says=()):
+        """It ends with this code and with a message that holds all of `says`, on stderr."""
+        files = self.files()
+        result = self.run_h2mc(*arguments)
+        self.assertEqual(result.returncode, code, f"{arguments}: {result.stderr}")
+        for words in [says] if isinstance(says, str) else says:
+            self.assertIn(words, result.stderr, arguments)
+        self.assertNotEqual(result.stderr.strip(), "")
+        self.assertEqual(self.files(), files, "a failure leaves nothing behind")
+        return result
+
+    def write_png(self, name, width, height, pixel):
+        """8 bits a channel; pixel(x, y) gives (r, g, b)."""
+        def chunk(kind, data):
+            return (struct.pack(">I", len(data)) + kind + data
+                    + struct.pack(">I", zlib.crc32(kind + data)))
+        rows = b"".join(b"\0" + bytes(v for x in range(width) for v in pixel(x, y))
+                        for y in range(height))
+        with open(self.path(name), "wb") as out:
+            out.write(b"\x89PNG\r\n\x1a\n"
+                      + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
+                      + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+        return name
+
+    def read_exr(self, name):
+        """(attributes, the bytes that follow the header). Attributes: text, numbers, else bytes."""
+        with open(self.path(name), "rb") as stream:
+            data = stream.read()
+        self.assertEqual(data[:4], b"\x76\x2f\x31\x01")
+        position, attributes = 8, {}
+        while data[position] != 0:
+            end = data.index(b"\0", position)
+            key = data[position:end].decode()
+            position = data.index(b"\0", end + 1)
+            kind = data[end + 1:position].decode()
+            size = struct.unpack_from("<i", data, position + 1)[0]
+            value = data[position + 5:position + 5 + size]
+            position += 5 + size
+            if kind == "string":
+                value = value.decode()
+            elif kind in ("int", "float", "double"):
+                value = struct.unpack("<" + kind[0], value)[0]
+            attributes[key] = value
+        return attributes, data[position + 1:]
+
+
+def main():
+    if not BINARY:
+        print("H2MC_BINARY does not say where the program is", file=sys.stderr)
+        sys.exit(77)
+    unittest.main()

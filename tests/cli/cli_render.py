@@ -1,0 +1,161 @@
+#!/usr/bin/env python3
+"""h2mc render: its files, signals, and the same image whatever the number of threads."""
+
+import json
+import os
+import pty
+import re
+import signal
+import subprocess
+import time
+
+import _h2mc
+
+TIMING = ("wallSeconds", "cpuSeconds", "threads")
+
+
+class Render(_h2mc.Test):
+    def setUp(self):
+        super().setUp()
+        self.write("scene.xml", _h2mc.SCENE)
+
+    def render(self, output, *arguments):
+        return self.succeeds("render", "scene.xml", "-o", output, *arguments)
+
+    @staticmethod
+    def budget(integrator):
+        return "--samples-per-pixel" if integrator in ("path", "bdpt") else "--mutations-per-pixel"
+
+    def test_default_output(self):
+        os.mkdir(self.path("work"))
+        result = subprocess.run([_h2mc.BINARY, "render", "../scene.xml", "-i", "path",
+                                 "--samples-per-pixel", "1"],
+                                cwd=self.path("work"), capture_output=True, text=True, check=False)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout, "")
+        self.assertEqual(os.listdir(self.path("work")), ["scene.exr"])
+
+    def test_attributes_and_statistics(self):
+        for integrator in _h2mc.INTEGRATORS:
+            with self.subTest(integrator):
+                result = self.render("a.exr", "-i", f"{integrator}:maxDepth=4", "--seed", "17",
+                                     "--threads", "2", self.budget(integrator), "8",
+                                     "-D", "width=20", "--stats", "a.json")
+                self.assertEqual(result.stdout, "")
+                self.assertIn("mean luminance", result.stderr)
+                attributes, _ = self.read_exr("a.exr")
+                self.assertEqual(attributes["scene"], "scene.xml")
+                self.assertEqual(attributes["integrator"], integrator)
+                self.assertRegex(attributes["integratorOptions"], r"(^|,)maxDepth=4(,|$)")
+                self.assertEqual(attributes["seed"], "17")
+                self.assertEqual(attributes["threads"], 2)
+                self.assertGreater(attributes["wallSeconds"], 0)
+                self.assertGreater(attributes["cpuSeconds"], 0)
+                self.assertGreaterEqual(attributes["samples"], 8 * 20 * 16)
+                self.assertGreater(attributes["meanLuminance"], 0)
+                self.assertGreater(attributes["meanLuminanceError"], 0)
+                self.assertRegex(attributes["programVersion"], r"^\d+\.\d+\.\d+")
+                with open(self.path("a.json"), encoding="utf-8") as stream:
+                    statistics = json.load(stream)
+                self.assertEqual(statistics["integrator"], integrator)
+                self.assertEqual(statistics["width"], 20)
+                self.assertEqual(statistics["samples"], attributes["samples"])
+                self.assertIsInstance(statistics["statistics"], dict)
+
+    def test_formats(self):
+        self.render("a.exr", "-i", "path", "--samples-per-pixel", 4, "--png")
+        self.render("b.hdr", "-i", "path", "--samples-per-pixel", 4)
+        self.render("c.png", "-i", "path", "--samples-per-pixel", 4, "--png")
+        self.assertEqual(self.files(), ["a.exr", "a.png", "b.hdr", "c.png", "scene.xml"])
+        self.succeeds("diff", "a.png", "c.png", "--metric", "mse", "--tolerance", "0")
+        self.succeeds("diff", "a.exr", "b.hdr", "--metric", "mse", "--tolerance", "1e-3")
+        with open(self.path("a.png"), "rb") as a, open(self.path("c.png"), "rb") as c:
+            self.assertEqual(a.read(), c.read())
+
+    def test_size(self):
+        self.render("a.exr", "-i", "path", "--samples-per-pixel", 1, "--scale", "0.5")
+        self.fails(2, "diff", "a.exr", self.write_png("b.png", 3, 2, lambda x, y: (0, 0, 0)),
+                   says="12 x 8")
+        self.render("a.exr", "-i", "path", "--samples-per-pixel", 1, "--width", 7, "--height", 5)
+        self.fails(2, "diff", "a.exr", "b.png", says="7 x 5")
+
+    def test_quiet(self):
+        result = self.render("a.exr", "-i", "path", "--samples-per-pixel", 1, "--quiet")
+        self.assertEqual((result.stdout, result.stderr), ("", ""))
+
+    def test_time(self):
+        start = time.monotonic()
+        self.render("a.exr", "-i", "h2mc", "--time", "1")
+        self.assertLess(time.monotonic() - start, 20)
+        self.assertGreater(self.read_exr("a.exr")[0]["samples"], 0)
+
+    def test_same_seed_same_file(self):
+        for integrator in _h2mc.INTEGRATORS:
+            with self.subTest(integrator):
+                for threads in (1, 2):
+                    self.render(f"{threads}.exr", "-i", integrator, "--threads", threads,
+                                "--seed", 5, self.budget(integrator), 16)
+                self.render("other.exr", "-i", integrator, "--seed", 6, self.budget(integrator), 16)
+                one, two = self.read_exr("1.exr"), self.read_exr("2.exr")
+                for key in TIMING:
+                    one[0].pop(key)
+                    two[0].pop(key)
+                self.assertEqual(one, two)
+                self.assertNotEqual(one[1], self.read_exr("other.exr")[1])
+
+    def start(self, *arguments, **streams):
+        process = subprocess.Popen(
+            [_h2mc.BINARY, "render", "scene.xml", "-o", "a.exr", "--time", "600", *arguments],
+            cwd=self.folder, stdin=subprocess.DEVNULL, text=True, **streams)
+        self.addCleanup(process.kill)
+        return process
+
+    def test_interrupted(self):
+        for integrator, number in (("path", signal.SIGINT), ("h2mc", signal.SIGTERM),
+                                   ("bdpt", signal.SIGTERM), ("mmlt", signal.SIGINT)):
+            with self.subTest(integrator):
+                process = self.start("-i", integrator, "--stats", "a.json",
+                                     stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                time.sleep(3)
+                process.send_signal(number)
+                output, messages = process.communicate(timeout=60)
+                self.assertEqual(process.returncode, 130, messages)
+                self.assertEqual(output, "")
+                self.assertEqual(self.files(), ["a.exr", "a.json", "scene.xml"])
+                attributes, _ = self.read_exr("a.exr")
+                self.assertEqual(attributes["interrupted"], 1)
+                self.assertGreater(attributes["meanLuminance"], 0)
+                os.remove(self.path("a.exr"))
+                os.remove(self.path("a.json"))
+
+    # Lines, and not many of them, where stderr is no terminal.
+    def test_plain_progress(self):
+        process = self.start("-i", "path", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        time.sleep(7)
+        process.send_signal(signal.SIGINT)
+        _, messages = process.communicate(timeout=60)
+        self.assertNotIn("\r", messages)
+        progress = re.findall(r"(?m)^ *\d+ %.* left$", messages)
+        self.assertIn(len(progress), (1, 2), messages)
+
+    def test_bar_on_a_terminal(self):
+        ours, theirs = pty.openpty()
+        environment = dict(os.environ, TERM="xterm")
+        process = self.start("-i", "path", stderr=theirs, env=environment)
+        time.sleep(3)
+        process.send_signal(signal.SIGINT)
+        process.wait(timeout=60)
+        os.close(theirs)
+        text = b""
+        try:
+            while chunk := os.read(ours, 65536):
+                text += chunk
+        except OSError:
+            pass  # the other end is closed
+        os.close(ours)
+        self.assertIn(b"\r[", text)
+        self.assertRegex(text.decode(), r"samples/s +\d.* left")
+
+
+if __name__ == "__main__":
+    _h2mc.main()
