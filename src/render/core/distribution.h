@@ -152,7 +152,7 @@ T BilinearDistribution::interpolatedWeight(const Cell& cell, const Rows& rows, c
   const S w00 = weight(rows.first, cell.column), w10 = weight(rows.first, cell.column + 1);
   const S w01 = weight(rows.second, cell.column), w11 = weight(rows.second, cell.column + 1);
   if (rows.first == rows.second) return x * (w10 - w00) + w00;
-  return ad::linear3(x, w10 - w00, y, w01 - w00, T(x * y), (w11 - w01) - (w10 - w00)) + w00;
+  return linear3(x, w10 - w00, y, w01 - w00, T(x * y), (w11 - w01) - (w10 - w00)) + w00;
 }
 
 template <class T>
@@ -196,9 +196,9 @@ BilinearDistribution::Point<T> BilinearDistribution::sample(const T& u0, const T
     const T cellMass = (a + b) * (S(0.5) / scale);
     const double across =
         local((value0 * massHere - start - y * deltaStart) / static_cast<double>(value(cellMass)));
-    const T numerator = ad::linear3(d0, S(massHere), dy, S(value0 * deltaMass - deltaStart),
-                                    T(d0 * dy), S(deltaMass)) +
-                        S(across * static_cast<double>(value(cellMass)));
+    const T numerator =
+        linear3(d0, S(massHere), dy, S(value0 * deltaMass - deltaStart), T(d0 * dy), S(deltaMass)) +
+        S(across * static_cast<double>(value(cellMass)));
     p.x = sampleLinear<T>(a, b, T(numerator / cellMass));
   }
   p.u = (p.x + S(column + 0.5)) / scale;

@@ -1,4 +1,5 @@
-// Functions whose derivatives stay finite at the border of their domain.
+// Functions whose derivatives stay finite at the border of their domain, and helpers for vectors of
+// duals.
 #pragma once
 
 #include <cmath>
@@ -6,6 +7,11 @@
 #include "render/core/types.h"
 
 namespace h2mc {
+
+// The fused operations: for duals they are found through their arguments, for plain numbers here.
+using ad::dot2;
+using ad::linear2;
+using ad::linear3;
 
 // sqrt(x); 0 for negative x. Passive below 1e-12, where the second derivative would be near
 // overflow: such a coordinate is treated as if it did not move.

@@ -13,8 +13,7 @@ SurfacePoint<T> diskPoint(const Disk& disk, const T& x, const T& y) {
   using S = Scalar<T>;
   SurfacePoint<T> r;
   const Vec3<S> ax = plain<T>(disk.axisX), ay = plain<T>(disk.axisY);
-  r.p = {ad::linear2(x, ax.x, y, ay.x), ad::linear2(x, ax.y, y, ay.y),
-         ad::linear2(x, ax.z, y, ay.z)};
+  r.p = {linear2(x, ax.x, y, ay.x), linear2(x, ax.y, y, ay.y), linear2(x, ax.z, y, ay.z)};
   r.p = withValue<T>(r.p, Vec3<S>(glm::dvec3(disk.center) +
                                   glm::dvec3(disk.axisX) * static_cast<double>(value(x)) +
                                   glm::dvec3(disk.axisY) * static_cast<double>(value(y))));
@@ -22,7 +21,7 @@ SurfacePoint<T> diskPoint(const Disk& disk, const T& x, const T& y) {
   r.ng = lift<T>(normal);
   const Frame<S> frame = Frame<S>::fromNormal(normal);
   r.shading = {lift<T>(frame.s), lift<T>(frame.t), r.ng};
-  r.uv = {safeSqrt(T(ad::dot2(x, x, y, y))), turns(y, x)};
+  r.uv = {safeSqrt(T(dot2(x, x, y, y))), turns(y, x)};
   return r;
 }
 

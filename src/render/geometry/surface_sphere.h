@@ -25,7 +25,7 @@ SurfacePoint<T> spherePoint(const Sphere& sphere, const Vec3<T>& n) {
     return dot(n, Vec3<S>(S(m[0][i]), S(m[1][i]), S(m[2][i])));
   };
   const T x = local(0), y = local(1), z = local(2);
-  const T rho = safeSqrt(T(ad::dot2(x, x, y, y)));
+  const T rho = safeSqrt(T(dot2(x, x, y, y)));
   r.uv = {turns(y, x), ad::atan2(rho, z) * S(std::numbers::inv_pi)};
   return r;
 }

@@ -56,8 +56,8 @@ void finishTrianglePoint(const TriangleMesh& mesh, std::uint32_t index, Vec3<Sca
       if (glm::dot(n0, n0) > 0.5f) passive = Vec3<S>(n0);
     } else {
       const Vec3<S> a = plain<T>(n0), d1 = plain<T>(n1) - a, d2 = plain<T>(n2) - a;
-      const Vec3<T> n{ad::linear2(b1, d1.x, b2, d2.x) + a.x, ad::linear2(b1, d1.y, b2, d2.y) + a.y,
-                      ad::linear2(b1, d1.z, b2, d2.z) + a.z};
+      const Vec3<T> n{linear2(b1, d1.x, b2, d2.x) + a.x, linear2(b1, d1.y, b2, d2.y) + a.y,
+                      linear2(b1, d1.z, b2, d2.z) + a.z};
       if (dot(value3(n), value3(n)) > S(1e-6)) {
         flat = false;
         r.shading = Frame<T>::fromNormal(ad::normalize(n));
@@ -76,7 +76,7 @@ void finishTrianglePoint(const TriangleMesh& mesh, std::uint32_t index, Vec3<Sca
   } else {
     const Vec2f &a = mesh.uvs[t.x], &b = mesh.uvs[t.y], &c = mesh.uvs[t.z];
     const auto coordinate = [&](float x0, float x1, float x2) -> T {
-      return ad::linear2(b1, S(x1) - S(x0), b2, S(x2) - S(x0)) + S(x0);
+      return linear2(b1, S(x1) - S(x0), b2, S(x2) - S(x0)) + S(x0);
     };
     r.uv = {coordinate(a.x, b.x, c.x), coordinate(a.y, b.y, c.y)};
   }
@@ -88,9 +88,9 @@ SurfacePoint<T> trianglePoint(const TriangleMesh& mesh, std::uint32_t index, con
   using S = Scalar<T>;
   const Triangle<S> triangle = triangleOf<S>(mesh, index);
   SurfacePoint<T> r;
-  r.p = {ad::linear2(b1, triangle.e1.x, b2, triangle.e2.x),
-         ad::linear2(b1, triangle.e1.y, b2, triangle.e2.y),
-         ad::linear2(b1, triangle.e1.z, b2, triangle.e2.z)};
+  r.p = {linear2(b1, triangle.e1.x, b2, triangle.e2.x),
+         linear2(b1, triangle.e1.y, b2, triangle.e2.y),
+         linear2(b1, triangle.e1.z, b2, triangle.e2.z)};
   r.p = withValue<T>(r.p, pointOnTriangle<S>(mesh, index, value(b1), value(b2)));
   finishTrianglePoint<T>(mesh, index, triangle.normal, b1, b2, r);
   return r;

@@ -5,11 +5,11 @@
 #include <string>
 #include <variant>
 
-#include "render/light/light_types.h"
 #include "render/light/area_light.h"
 #include "render/light/constant_light.h"
 #include "render/light/directional_light.h"
 #include "render/light/envmap_light.h"
+#include "render/light/light_types.h"
 #include "render/light/point_light.h"
 #include "render/light/spot_light.h"
 #include "render/scene/plugin.h"
@@ -24,7 +24,7 @@ namespace h2mc {
 //   float power(const SceneBounds&);  // luminance of the flux (an estimate is enough), > 0 if it emits
 //
 //   // Light arriving at the point `reference`, sampled with u in [0,1)^2 (technique s = 1).
-//   // `primitive` is the discrete choice made by choosePrimitive(). 
+//   // `primitive` is the discrete choice made by choosePrimitive().
 //   template <class T> DirectLight<T> sampleDirect(const LightContext&, PrimitiveId primitive,
 //                                                 const Vec3<T>& reference, const T& u0, const T& u1);
 //
@@ -53,8 +53,12 @@ namespace h2mc {
 //   // and 1 are the same point: bit i for the i-th.
 //   unsigned wrapsDirect(const LightContext&);
 //   unsigned wrapsEmission(const LightContext&);
-using Light = std::variant<AreaLight, PointLight, SpotLight, DirectionalLight, ConstantLight,
-                           EnvmapLight>;
+using Light =
+    std::variant<AreaLight, PointLight, SpotLight, DirectionalLight, ConstantLight, EnvmapLight>;
+
+// Tells area lights about the shapes they stand on. Call once, when the scene's shapes are in place
+// and AreaLight::shape is set, before any other use.
+void prepareLights(std::span<Light> lights, std::span<const Shape> shapes);
 
 // Every light a scene file can name.
 std::span<const Plugin<Light>> lightPlugins();

@@ -3,13 +3,15 @@
 
 #include <vector>
 
+#include "render/core/distribution.h"
+
 namespace h2mc {
 
 // Chooses a light by power. Probabilities are positive for every light that emits.
 class LightPicker {
  public:
   LightPicker() = default;
-  // powers: finite, not negative, one a light.
+  // powers: finite, not negative, one a light. All zero counts as all equal.
   explicit LightPicker(const std::vector<double>& powers);
 
   struct Choice {
@@ -17,13 +19,14 @@ class LightPicker {
     float remainder;  // the coordinate within the light's interval, in [0, 1): uniform again
   };
   Choice choose(float coordinate) const;
-  float probability(int light) const { return probabilities_[light]; }
-  // A coordinate that chooses `light` with this remainder.
+  float probability(int light) const { return probabilities_[static_cast<std::size_t>(light)]; }
+  // A coordinate that chooses `light` with this remainder, as near as floats allow; -1 where the
+  // light is so weak that no float in [0, 1) chooses it.
   float invert(int light, float remainder) const;
 
  private:
   std::vector<float> probabilities_;
-  std::vector<double> cumulative_;
+  DiscreteDistribution distribution_;
 };
 
 }  // namespace h2mc

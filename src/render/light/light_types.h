@@ -24,16 +24,23 @@ struct LightContext {
   SceneBounds bounds;
 };
 
+// On the dark side of a light the radiance and emissionPdf are zero, and directPdf is that of the
+// direction. Where not even a direction exists (the reference point is the sampled one) directPdf is
+// zero too. Everything is finite.
 template <class T>
 struct DirectLight {
   Vec3<T> direction;  // unit, from the reference point to the light
   T distance;         // to the light; a value beyond the scene for infinite lights
   Rgb<T> radiance;    // radiance; intensity for point and spot, irradiance for directional lights
-  T directPdf;        // per solid angle at the reference point; distance^2 for point and spot lights,
-                      // 1 for directional ones, so that radiance / directPdf is what arrives
-  T emissionPdf;      // with which sampleEmission makes this ray: per area and solid angle; for a point
-                      // light per solid angle, for a directional one per area
-  T cosLight;         // |cos| between the light's geometric normal and the ray; 1 without a surface
+  T directPdf;    // per solid angle at the reference point; distance^2 for point and spot lights,
+                  // 1 for directional ones, so that radiance / directPdf is what arrives
+  T emissionPdf;  // with which sampleEmission makes this ray: per area and solid angle; for a point
+                  // light per solid angle, for a directional one per area
+  T cosLight;     // |cos| between the light's geometric normal and the ray; 1 without a surface
+  // For the shadow ray, values only: the sampled point (unless the light is infinite) and its
+  // surface's geometric normal, zero without a surface.
+  Vec3<Scalar<T>> position{0};
+  Vec3<Scalar<T>> normal{0};
 };
 
 template <class T>
@@ -41,11 +48,11 @@ struct EmittedRay {
   Vec3<T> origin;
   Vec3<T> direction;  // unit
   Vec3<T> normal;     // of the emitting surface, for offsetting the ray; zero without a surface
-  Rgb<T> power;       // radiance (intensity, irradiance) times cosLight: what divided by emissionPdf is
-                      // the flux that the ray carries
-  T emissionPdf;      // as above
-  T directPdf;        // of the origin as a direct sample: per area for area lights (1 / area), per
-                      // solid angle for infinite ones, 1 for delta lights
+  Rgb<T> power;   // radiance (intensity, irradiance) times cosLight: what divided by emissionPdf is
+                  // the flux that the ray carries
+  T emissionPdf;  // as above
+  T directPdf;    // of the origin as a direct sample: per area for area lights (1 / area), per
+                  // solid angle for infinite ones, 1 for delta lights
   T cosLight;
 };
 

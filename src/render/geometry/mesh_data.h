@@ -1,0 +1,54 @@
+// Meshes as files hold them, and what makes shapes of them.
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "render/geometry/shape.h"
+
+namespace h2mc {
+
+// A file that is not a mesh, or a broken one; what() names file and place and says why.
+class MeshError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// In object space. Every index is within range and every number finite once a loader returns it.
+struct MeshData {
+  std::vector<Vec3f> positions;
+  std::vector<Vec3f> normals;  // empty, or one a vertex; zero where the file has none
+  std::vector<Vec2f> uvs;      // empty, or one a vertex
+  std::vector<glm::uvec3> triangles;
+  bool faceNormals = false;  // the file asks for flat shading
+};
+
+// The loaders. Throw MeshError; a mesh without triangles is an error too.
+MeshData loadObj(const std::string& path, bool flipTexCoords);
+MeshData loadPly(const std::string& path, bool flipTexCoords);
+MeshData loadSerialized(const std::string& path, int shapeIndex);
+
+struct MeshOptions {
+  Mat4 toWorld{1};
+  bool faceNormals = false;
+  bool flipNormals = false;
+  // Mitsuba 0.6 turns the winding of mirrored `serialized` meshes, and of no others.
+  bool rewindMirrored = false;
+};
+
+// The mesh in world space. Vertex normals that are missing are computed, weighted by angle, unless
+// the mesh is to be flat. Triangles without area are dropped and counted; the result may be empty.
+// Throws MeshError when the transformed numbers are not finite.
+TriangleMesh finishMesh(MeshData data, const MeshOptions& options, std::size_t& dropped);
+
+// The square [-1, 1]^2 in z = 0 with its normal along +z.
+TriangleMesh makeRectangle(const Mat4& toWorld, bool flipNormals);
+// The cube [-1, 1]^3 with its normals outwards and every face over all of the texture.
+MeshData makeCube();
+
+// The inverse transpose of the linear part, for normals.
+glm::dmat3 normalTransform(const Mat4& toWorld);
+
+}  // namespace h2mc

@@ -1,0 +1,154 @@
+// Wavefront OBJ: faces of any number of corners; groups are one mesh.
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <unordered_map>
+
+#include "render/geometry/mesh_data.h"
+#include "render/geometry/mesh_text.h"
+
+namespace h2mc {
+namespace {
+
+// A vertex of the mesh is what shares position, normal, texture coordinates and group. Values are
+// compared, not indices, as Mitsuba 0.6 does: it decides which faces computed normals are smoothed
+// over.
+struct Key {
+  std::array<float, 8> values;
+  unsigned group, given;  // given: bit 0 uv, bit 1 normal
+  bool operator==(const Key& other) const {
+    return values == other.values && group == other.group && given == other.given;
+  }
+};
+
+struct KeyHash {
+  std::size_t operator()(const Key& key) const {
+    std::uint64_t h = key.group * 4ull + key.given;
+    for (float f : key.values) {
+      if (f == 0) f = 0;  // -0 equals 0
+      std::uint32_t bits;
+      std::memcpy(&bits, &f, sizeof bits);
+      h = (h ^ bits) * 0x9e3779b97f4a7c15ull;
+      h ^= h >> 29;
+    }
+    return static_cast<std::size_t>(h);
+  }
+};
+
+class ObjReader {
+ public:
+  ObjReader(const std::string& path, std::string_view text, bool flip)
+      : text_(path, text), flip_(flip) {}
+
+  MeshData read() {
+    while (text_.nextLine()) {
+      const std::string_view keyword = text_.word();
+      if (keyword == "v") {
+        const float x = text_.number(), y = text_.number(), z = text_.number();
+        positions_.emplace_back(x, y, z);
+      } else if (keyword == "vt") {
+        const float u = text_.number();
+        const std::string_view second = text_.word();
+        const float v = second.empty() ? 0 : text_.toNumber(second);
+        uvs_.emplace_back(u, flip_ ? 1 - v : v);
+      } else if (keyword == "vn") {
+        const float x = text_.number(), y = text_.number(), z = text_.number();
+        normals_.emplace_back(x, y, z);
+      } else if (keyword == "f") {
+        readFace();
+      } else if (keyword == "g" || keyword == "o" || keyword == "usemtl") {
+        ++group_;
+      }
+    }
+    if (data_.triangles.empty()) text_.fail("the mesh has no faces");
+    if (!anyNormal_) data_.normals.clear();
+    if (!anyUv_) data_.uvs.clear();
+    return std::move(data_);
+  }
+
+ private:
+  // An index of the file, from 1 or from the end if negative, as one from 0.
+  std::size_t index(std::string_view word, std::size_t count, const char* what) const {
+    const long long written = text_.toInteger(word);
+    const long long i = written < 0 ? static_cast<long long>(count) + written : written - 1;
+    if (written == 0 || i < 0 || i >= static_cast<long long>(count))
+      text_.fail(std::string(what) + " " + std::to_string(written) + " is out of range: there are " +
+                 std::to_string(count) + " so far");
+    return static_cast<std::size_t>(i);
+  }
+
+  unsigned vertex(std::string_view corner) {
+    std::string_view parts[3];
+    for (int i = 0; i < 3; ++i) {
+      const std::size_t slash = corner.find('/');
+      parts[i] = corner.substr(0, slash);
+      corner = slash == std::string_view::npos ? "" : corner.substr(slash + 1);
+    }
+    const Vec3f p = positions_[index(parts[0], positions_.size(), "vertex")];
+    Vec2f uv(0);
+    Vec3f n(0);
+    unsigned given = 0;
+    if (!parts[1].empty()) {
+      uv = uvs_[index(parts[1], uvs_.size(), "texture coordinate")];
+      given |= 1;
+      anyUv_ = true;
+    }
+    if (!parts[2].empty()) {
+      n = normals_[index(parts[2], normals_.size(), "normal")];
+      given |= 2;
+      anyNormal_ = true;
+    }
+    const Key key{{p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y}, group_, given};
+    const auto [entry, isNew] =
+        vertices_.try_emplace(key, static_cast<unsigned>(data_.positions.size()));
+    if (isNew) {
+      data_.positions.push_back(p);
+      data_.normals.push_back(n);
+      data_.uvs.push_back(uv);
+    }
+    return entry->second;
+  }
+
+  void readFace() {
+    unsigned first = 0, previous = 0;
+    int corners = 0;
+    for (std::string_view word = text_.word(); !word.empty() && word[0] != '#';
+         word = text_.word(), ++corners) {
+      const unsigned v = vertex(word);
+      if (corners == 0) first = v;
+      if (corners >= 2) data_.triangles.emplace_back(first, previous, v);
+      previous = v;
+    }
+    if (corners < 3) text_.fail("a face with " + std::to_string(corners) + " corners");
+  }
+
+  MeshText text_;
+  bool flip_;
+  std::vector<Vec3f> positions_, normals_;
+  std::vector<Vec2f> uvs_;
+  std::unordered_map<Key, unsigned, KeyHash> vertices_;
+  MeshData data_;
+  unsigned group_ = 0;
+  bool anyNormal_ = false, anyUv_ = false;
+};
+
+}  // namespace
+
+std::string readMeshFile(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw MeshError(path + ": cannot be opened for reading");
+  std::string text;
+  char buffer[1 << 16];
+  while (stream.read(buffer, sizeof buffer) || stream.gcount() > 0)
+    text.append(buffer, static_cast<std::size_t>(stream.gcount()));
+  if (stream.bad()) throw MeshError(path + ": cannot be read");
+  if (text.empty()) throw MeshError(path + ": the file is empty");
+  return text;
+}
+
+MeshData loadObj(const std::string& path, bool flipTexCoords) {
+  const std::string text = readMeshFile(path);
+  return ObjReader(path, text, flipTexCoords).read();
+}
+
+}  // namespace h2mc

@@ -1,0 +1,51 @@
+#include "render/light/area_light.h"
+
+#include <cmath>
+
+namespace h2mc {
+
+void AreaLight::prepare(std::span<const Shape> shapes) {
+  const Shape& s = shapes[static_cast<std::size_t>(shape)];
+  area_ = static_cast<float>(totalArea(s));
+  if (!(area_ >= std::numeric_limits<float>::min())) area_ = std::numeric_limits<float>::min();
+  wraps_ = wrapsAround(s);
+  curved_ = std::holds_alternative<Sphere>(s.geometry);
+  const auto* mesh = std::get_if<TriangleMesh>(&s.geometry);
+  if (!mesh || mesh->parallelogram) return;
+  std::vector<double> areas(mesh->triangles.size());
+  for (std::size_t i = 0; i < areas.size(); ++i)
+    areas[i] = primitiveArea(s, static_cast<std::uint32_t>(i));
+  triangles_ = DiscreteDistribution(areas);
+}
+
+float AreaLight::power(const SceneBounds&) const {
+  return kPi * area_ * luminance(average(*radiance));
+}
+
+PrimitiveId AreaLight::choosePrimitive(const LightContext&, float choice) const {
+  const int triangle = triangles_.size() > 0 ? triangles_.sample(choice).index : 0;
+  return {static_cast<std::uint32_t>(shape), static_cast<std::uint32_t>(triangle)};
+}
+
+bool AreaLight::invertDirect(const LightContext& context, PrimitiveId primitive,
+                             const Vec3f& reference, const Vec3f& direction, float distance,
+                             Vec2f& u, float& choice) const {
+  if (primitive.shape != static_cast<std::uint32_t>(shape)) return false;
+  choice =
+      triangles_.size() > 0 ? triangles_.invert(static_cast<int>(primitive.primitive), 0.5f) : 0.5f;
+  return choice >= 0 &&
+         invertPrimitive(context.shapes, primitive, reference + direction * distance, u);
+}
+
+bool AreaLight::invertEmission(const LightContext& context, PrimitiveId primitive,
+                               const Vec3f& origin, const Vec3f& direction, Vec2f& u, Vec2f& v,
+                               float& choice) const {
+  if (!invertDirect(context, primitive, origin, Vec3f(0), 0, u, choice)) return false;
+  const Vec3f normal = samplePrimitive<float>(context.shapes, primitive, u.x, u.y).ng;
+  const Vec3f local = Frame<float>::fromNormal(normal).toLocal(direction);
+  if (!(local.z > 0)) return false;
+  v = detail::invertUniformDisk(local.x, local.y);
+  return true;
+}
+
+}  // namespace h2mc

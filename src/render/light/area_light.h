@@ -1,0 +1,132 @@
+#pragma once
+
+#include "render/core/distribution.h"
+#include "render/geometry/surface.h"
+#include "render/light/light_sampling.h"
+#include "render/scene/plugin.h"
+#include "render/texture/texture.h"
+
+namespace h2mc {
+
+// A shape that emits the same radiance in all directions, on the side of its normal. A texture may
+// vary the radiance; points are sampled uniformly by area all the same.
+struct AreaLight {
+  TexturePtr radiance;
+  int shape = -1;  // index of the shape that emits, set when the scene is read
+
+  // Call when `shape` is set and the shapes are in place.
+  void prepare(std::span<const Shape> shapes);
+
+  bool isDelta() const { return false; }
+  bool isInfinite() const { return false; }
+  bool isEnvironment() const { return false; }
+  float power(const SceneBounds&) const;
+
+  template <class T>
+  DirectLight<T> sampleDirect(const LightContext& context, PrimitiveId primitive,
+                              const Vec3<T>& reference, const T& u0, const T& u1) const;
+  template <class T>
+  EmittedRay<T> sampleEmission(const LightContext& context, PrimitiveId primitive, const T& u0,
+                               const T& u1, const T& v0, const T& v1) const;
+  template <class T>
+  LightHit<T> hit(const LightContext& context, const SurfacePoint<T>& point,
+                  const Vec3<T>& direction) const;
+
+  PrimitiveId choosePrimitive(const LightContext& context, float choice) const;
+  bool invertDirect(const LightContext& context, PrimitiveId primitive, const Vec3f& reference,
+                    const Vec3f& direction, float distance, Vec2f& u, float& choice) const;
+  bool invertEmission(const LightContext& context, PrimitiveId primitive, const Vec3f& origin,
+                      const Vec3f& direction, Vec2f& u, Vec2f& v, float& choice) const;
+  unsigned wrapsDirect(const LightContext&) const { return wraps_ ? 2u : 0u; }
+  unsigned wrapsEmission(const LightContext&) const { return wraps_ ? 10u : 8u; }
+
+ private:
+  // The frame of emitted directions around the geometric normal.
+  template <class T>
+  Vec3<T> aroundNormal(const Vec3<T>& normal, const Vec3<T>& local) const;
+
+  DiscreteDistribution triangles_;  // by area; empty for shapes that are sampled whole
+  float area_ = 1;
+  bool wraps_ = false;
+  bool curved_ = false;  // the geometric normal varies within a primitive
+};
+
+template <class T>
+DirectLight<T> AreaLight::sampleDirect(const LightContext& context, PrimitiveId primitive,
+                                       const Vec3<T>& reference, const T& u0, const T& u1) const {
+  using S = Scalar<T>;
+  const SurfacePoint<T> point = samplePrimitive<T>(context.shapes, primitive, u0, u1);
+  DirectLight<T> r;
+  r.position = value3(point.p);
+  r.normal = value3(point.ng);
+  const Vec3<T> offset = point.p - reference;
+  const T distance2 = ad::length2(offset);
+  const S cosine = -dot(value3(offset), r.normal);
+  if (!(value(distance2) > std::numeric_limits<S>::min())) {
+    r.direction = -point.ng;
+    r.distance = r.directPdf = r.emissionPdf = T(S(0));
+    r.radiance = lift<T>(Vec3<S>(0));
+    r.cosLight = T(S(1));
+    return r;
+  }
+  const T inverse = ad::rsqrt(distance2);
+  r.direction = offset * inverse;
+  r.distance = distance2 * inverse;
+  const T cosLight = dot(r.direction, point.ng);
+  r.cosLight = cosine < 0 ? cosLight : T(-cosLight);
+  // Edge on: no density per solid angle. Held at a value that keeps quotients finite.
+  if (value(r.cosLight) < S(1e-7)) r.cosLight = T(S(1e-7));
+  r.directPdf = distance2 / (r.cosLight * S(area_));
+  if (cosine > 0) {
+    r.radiance = evaluate<T>(*radiance, point.uv);
+    r.emissionPdf = r.cosLight * S(kInvPi / area_);
+  } else {
+    r.radiance = lift<T>(Vec3<S>(0));
+    r.emissionPdf = T(S(0));
+  }
+  return r;
+}
+
+template <class T>
+Vec3<T> AreaLight::aroundNormal(const Vec3<T>& normal, const Vec3<T>& local) const {
+  using S = Scalar<T>;
+  if (curved_) return Frame<T>::fromNormal(normal).toWorld(local);
+  const Frame<S> frame = Frame<S>::fromNormal(value3(normal));
+  return ad::combine(local.x, frame.s, local.y, frame.t, local.z, frame.n);
+}
+
+template <class T>
+EmittedRay<T> AreaLight::sampleEmission(const LightContext& context, PrimitiveId primitive,
+                                        const T& u0, const T& u1, const T& v0, const T& v1) const {
+  using S = Scalar<T>;
+  const SurfacePoint<T> point = samplePrimitive<T>(context.shapes, primitive, u0, u1);
+  const Vec2<T> d = detail::uniformDisk(v0, v1);
+  EmittedRay<T> r;
+  r.cosLight = safeSqrt(T(S(1) - v0));
+  r.origin = point.p;
+  r.normal = point.ng;
+  r.direction = aroundNormal<T>(point.ng, Vec3<T>(d.x, d.y, r.cosLight));
+  r.power = modulate<T>(*radiance, point.uv, r.cosLight);
+  r.emissionPdf = r.cosLight * S(kInvPi / area_);
+  r.directPdf = T(S(1 / area_));
+  return r;
+}
+
+template <class T>
+LightHit<T> AreaLight::hit(const LightContext&, const SurfacePoint<T>& point,
+                           const Vec3<T>& direction) const {
+  using S = Scalar<T>;
+  LightHit<T> r;
+  r.directPdf = T(S(1 / area_));
+  const T cosine = -dot(point.ng, direction);
+  if (value(cosine) > 0) {
+    r.radiance = evaluate<T>(*radiance, point.uv);
+    r.emissionPdf = cosine * S(kInvPi / area_);
+  } else {
+    r.radiance = lift<T>(Vec3<S>(0));
+    r.emissionPdf = T(S(0));
+  }
+  return r;
+}
+
+}  // namespace h2mc

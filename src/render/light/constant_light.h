@@ -1,0 +1,72 @@
+#pragma once
+
+#include "render/light/light_sampling.h"
+
+namespace h2mc {
+
+// The same radiance from every direction.
+struct ConstantLight {
+  Rgbf radiance{1};
+
+  bool isDelta() const { return false; }
+  bool isInfinite() const { return true; }
+  bool isEnvironment() const { return true; }
+  float power(const SceneBounds& bounds) const {
+    return 4 * kPi * luminance(radiance) / detail::diskPdf<float>(bounds);
+  }
+
+  template <class T>
+  DirectLight<T> sampleDirect(const LightContext& context, PrimitiveId, const Vec3<T>&, const T& u0,
+                              const T& u1) const {
+    using S = Scalar<T>;
+    DirectLight<T> r;
+    r.direction = detail::uniformSphere(u0, u1);
+    r.distance = T(S(detail::beyond(context.bounds)));
+    r.radiance = detail::passiveColor<T>(radiance);
+    r.directPdf = T(S(kInvPi / 4));
+    r.emissionPdf = T(S(kInvPi / 4) * detail::diskPdf<S>(context.bounds));
+    r.cosLight = T(S(1));
+    return r;
+  }
+
+  template <class T>
+  EmittedRay<T> sampleEmission(const LightContext& context, PrimitiveId, const T& u0, const T& u1,
+                               const T& v0, const T& v1) const {
+    using S = Scalar<T>;
+    EmittedRay<T> r;
+    const Vec3<T> toLight = detail::uniformSphere(v0, v1);
+    r.origin = detail::diskTowards(context.bounds, toLight, u0, u1);
+    r.direction = -toLight;
+    r.normal = lift<T>(Vec3<S>(0));
+    r.power = detail::passiveColor<T>(radiance);
+    r.directPdf = T(S(kInvPi / 4));
+    r.emissionPdf = T(S(kInvPi / 4) * detail::diskPdf<S>(context.bounds));
+    r.cosLight = T(S(1));
+    return r;
+  }
+
+  template <class T>
+  LightHit<T> hit(const LightContext& context, const SurfacePoint<T>&, const Vec3<T>&) const {
+    using S = Scalar<T>;
+    return {detail::passiveColor<T>(radiance), T(S(kInvPi / 4)),
+            T(S(kInvPi / 4) * detail::diskPdf<S>(context.bounds))};
+  }
+
+  PrimitiveId choosePrimitive(const LightContext&, float) const { return {}; }
+  bool invertDirect(const LightContext&, PrimitiveId, const Vec3f&, const Vec3f& direction, float,
+                    Vec2f& u, float& choice) const {
+    u = detail::invertUniformSphere(direction);
+    choice = 0.5f;
+    return true;
+  }
+  bool invertEmission(const LightContext& context, PrimitiveId, const Vec3f& origin,
+                      const Vec3f& direction, Vec2f& u, Vec2f& v, float& choice) const {
+    v = detail::invertUniformSphere(-direction);
+    choice = 0.5f;
+    return detail::invertDiskTowards(context.bounds, -direction, origin, u);
+  }
+  unsigned wrapsDirect(const LightContext&) const { return 1; }
+  unsigned wrapsEmission(const LightContext&) const { return 2 | 4; }
+};
+
+}  // namespace h2mc
