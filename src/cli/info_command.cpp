@@ -155,6 +155,7 @@ void addInfoCommand(CLI::App& app, Run& run) {
       ->add_option("-D", options->defines,
                    "name=value: what the scene's $name stands for; repeatable")
       ->allow_extra_args(false);
+  command->footer("What is not used, or left out because nothing needs it, is in the notes.");
   command->callback([options, &run] { run = [options] { return info(*options); }; });
 }
 

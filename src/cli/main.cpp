@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -13,6 +14,7 @@
 #include "mcmc/integrators.h"
 #include "render/image/image_io.h"
 #include "render/scene/properties.h"
+#include "render/scene/suggestion.h"
 
 namespace h2mc {
 
@@ -62,6 +64,15 @@ int run(int argc, char** argv) {
   addInfoCommand(app, command);
   addListCommand(app, command);
   addDiffCommand(app, command);
+
+  // CLI11 would only say that there has to be a command.
+  const Names commands{"render", "info", "list", "diff"};
+  const std::string first = argc > 1 ? argv[1] : "";
+  if (first.empty())
+    return report(kBadInput, ("which command? available: " + joined(commands)).c_str());
+  if (first[0] != '-' && std::find(commands.begin(), commands.end(), first) == commands.end())
+    return report(kBadInput,
+                  ("unknown command \"" + first + "\"; " + suggestion(first, commands)).c_str());
 
   try {
     app.parse(argc, argv);

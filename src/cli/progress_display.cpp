@@ -25,9 +25,10 @@ int terminalColumns() {
 
 std::string withPrefix(double number) {
   if (!std::isfinite(number)) return "?";
-  if (number < 1e3) return fmt::format("{:.3g}", number);
-  if (number < 1e6) return fmt::format("{:.3g} k", number / 1e3);
-  if (number < 1e9) return fmt::format("{:.3g} M", number / 1e6);
+  // Limits that do not round up to "1e+03".
+  if (number < 999.5) return fmt::format("{:.3g}", number);
+  if (number < 999.5e3) return fmt::format("{:.3g} k", number / 1e3);
+  if (number < 999.5e6) return fmt::format("{:.3g} M", number / 1e6);
   return fmt::format("{:.3g} G", number / 1e9);
 }
 

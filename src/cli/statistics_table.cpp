@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -32,7 +33,11 @@ std::string scalar(const json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (value.is_number_integer()) return withSeparators(value.get<long long>());
-  if (value.is_number()) return fmt::format("{:.4g}", value.get<double>());
+  if (value.is_number()) {
+    const double number = value.get<double>();
+    const bool large = std::abs(number) >= 1e4 && std::abs(number) < 1e15;
+    return large ? withSeparators(std::llround(number)) : fmt::format("{:.4g}", number);
+  }
   if (value.is_null()) return "-";
   return value.dump();
 }
