@@ -1,0 +1,256 @@
+// The table of BSDFs and how each is made from a scene's parameters. Names, defaults and meaning are
+// Mitsuba 0.6's.
+#include <charconv>
+
+#include "render/bsdf/bsdf.h"
+#include "render/bsdf/refractive_index.h"
+#include "render/scene/properties.h"
+
+namespace h2mc {
+
+namespace {
+
+using enum ParameterType;
+
+constexpr Parameter kConserve = {"ensureEnergyConservation", kBoolean, "true",
+                                 "scale reflectances that exceed 1"};
+constexpr Parameter kSpecular = {"specularReflectance", kTexture, "1", "factor of the reflection"};
+constexpr Parameter kTransmittance = {"specularTransmittance", kTexture, "1",
+                                      "factor of the transmission"};
+constexpr Parameter kDistribution = {"distribution", kString, "beckmann",
+                                     "of the facets' normals (phong and as are not supported)",
+                                     "beckmann|ggx|phong|as"};
+constexpr Parameter kAlpha = {"alpha", kNumber, "0.1", "roughness: the facets' root mean square slope"};
+constexpr Parameter kAlphaU = {"alphaU", kNumber, "0.1", "roughness along u, the same as along v"};
+constexpr Parameter kAlphaV = {"alphaV", kNumber, "0.1", "roughness along v, the same as along u"};
+constexpr Parameter kSampleVisible = {"sampleVisible", kBoolean, "true",
+                                      "how other renderers sample; no effect on the image",
+                                      "", "", true};
+constexpr Parameter kExteriorIndex = {"extIOR", kString, "air",
+                                      "refractive index outside: a number or a name", "", "ext_ior"};
+constexpr Parameter kGlassIndex = {"intIOR", kString, "bk7",
+                                   "refractive index inside: a number or a name", "", "int_ior"};
+constexpr Parameter kPlasticIndex = {"intIOR", kString, "polypropylene",
+                                     "refractive index of the coat: a number or a name", "",
+                                     "int_ior"};
+constexpr Parameter kMaterialName = {"material", kString, "Cu",
+                                     "a metal's name, or none: reflects everything"};
+constexpr Parameter kEta = {"eta", kColor, "", "refractive index; the material's by default"};
+constexpr Parameter kK = {"k", kColor, "", "extinction coefficient; the material's by default"};
+constexpr Parameter kExteriorEta = {"extEta", kString, "air",
+                                    "refractive index outside: a number or a name"};
+constexpr Parameter kNonlinear = {"nonlinear", kBoolean, "false",
+                                  "colour shifts by scattering inside the coat"};
+constexpr Parameter kDiffuseReflectance = {"diffuseReflectance", kTexture, "0.5",
+                                           "reflectance of the diffuse part"};
+
+constexpr Parameter kDiffuseParameters[] = {
+    {"reflectance", kTexture, "0.5", "diffuse reflectance", "", "diffuseReflectance"}, kConserve};
+constexpr Parameter kPhongParameters[] = {
+    kDiffuseReflectance,
+    {"specularReflectance", kTexture, "0.2", "reflectance of the glossy part"},
+    {"exponent", kNumber, "30", "of the cosine around the mirror direction"},
+    kConserve};
+constexpr Parameter kConductorParameters[] = {kMaterialName, kEta,     kK,
+                                              kExteriorEta,  kSpecular, kConserve};
+constexpr Parameter kRoughConductorParameters[] = {
+    kDistribution, kAlpha, kAlphaU,   kAlphaV,        kMaterialName, kEta,
+    kK,            kExteriorEta, kSpecular, kSampleVisible, kConserve};
+constexpr Parameter kDielectricParameters[] = {kGlassIndex, kExteriorIndex, kSpecular,
+                                               kTransmittance, kConserve};
+constexpr Parameter kRoughDielectricParameters[] = {
+    kDistribution, kAlpha,    kAlphaU,        kAlphaV,        kGlassIndex,
+    kExteriorIndex, kSpecular, kTransmittance, kSampleVisible, kConserve};
+constexpr Parameter kPlasticParameters[] = {kPlasticIndex, kExteriorIndex, kDiffuseReflectance,
+                                            kSpecular,     kNonlinear,     kConserve};
+constexpr Parameter kRoughPlasticParameters[] = {
+    kDistribution,       kAlpha,    kPlasticIndex,  kExteriorIndex,
+    kDiffuseReflectance, kSpecular, kNonlinear,     kSampleVisible, kConserve};
+constexpr Parameter kMaskParameters[] = {
+    {"opacity", kTexture, "0.5", "share of light that meets the nested BSDF; the rest goes on"},
+    kConserve};
+
+float largest(const Rgbf& c) { return std::max({c.x, c.y, c.z}); }
+
+// By how much Mitsuba scales reflectances whose sum may exceed 1.
+float energyScale(const Properties& p, const Rgbf& highest) {
+  return largest(highest) > 1 && p.boolean("ensureEnergyConservation") ? 0.99f / largest(highest)
+                                                                        : 1;
+}
+
+float refractiveIndex(const Properties& p, std::string_view name) {
+  const std::string text = p.string(name);
+  const char* const end = text.data() + text.size();
+  float number = 0;
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error == std::errc() && stop == end) {
+    if (!(number > 0) || !(number < 100)) p.fail(name, "a refractive index must be positive");
+    return number;
+  }
+  const auto index = dielectricIndex(text);
+  if (!index)
+    p.fail(name, "no refractive index is known for \"" + text + "\"; there are " +
+                     dielectricNames() + ", or give a number");
+  return *index;
+}
+
+// The inside's refractive index over the outside's.
+float relativeIndex(const Properties& p, bool mustDiffer) {
+  const float inside = refractiveIndex(p, "intIOR"), outside = refractiveIndex(p, "extIOR");
+  if (mustDiffer && inside == outside)
+    p.fail("intIOR", "the refractive indices inside and outside must differ");
+  return inside / outside;
+}
+
+float roughness(const Properties& p, std::string_view name) {
+  const float alpha = p.number(name);
+  if (!(alpha >= 0)) p.fail(name, "a roughness must not be negative");
+  return std::max(alpha, 1e-4f);
+}
+
+Microfacet readFacets(const Properties& p, bool anisotropic) {
+  Microfacet facets;
+  const std::string distribution = p.string("distribution");
+  if (distribution == "ggx")
+    facets.distribution = FacetDistribution::kGgx;
+  else if (distribution != "beckmann")
+    p.fail("distribution", "the distribution \"" + distribution +
+                               "\" is not supported; there are beckmann and ggx");
+  facets.alpha = roughness(p, "alpha");
+  if (anisotropic && (p.given("alphaU") || p.given("alphaV"))) {
+    if (p.given("alpha"))
+      p.fail("alpha", "give either alpha, or alphaU and alphaV");
+    facets.alpha = roughness(p, "alphaU");
+    if (facets.alpha != roughness(p, "alphaV"))
+      p.fail("alphaV", "anisotropic roughness is not supported: alphaU and alphaV must be equal");
+  }
+  return facets;
+}
+
+ConductorIndex readConductor(const Properties& p) {
+  Rgbf eta(0), k(1);
+  const std::string name = p.string("material");
+  if (const NamedConductor* metal = conductorByName(name)) {
+    eta = {metal->eta[0], metal->eta[1], metal->eta[2]};
+    k = {metal->k[0], metal->k[1], metal->k[2]};
+  } else if (name != "none" && name != "None") {
+    p.fail("material", "unknown material \"" + name + "\"; there are " + conductorNames());
+  }
+  if (p.given("eta")) eta = p.color("eta");
+  if (p.given("k")) k = p.color("k");
+  const float outside = refractiveIndex(p, "extEta");
+  return {eta / outside, k / outside, eta == Rgbf(0)};
+}
+
+// Reflectances with their scale and the probability of the specular lobe.
+float specularWeight(const Rgbf& specular, const Rgbf& diffuse) {
+  const float s = luminance(specular), d = luminance(diffuse);
+  return s > 0 ? s / (s + d) : 0;
+}
+
+Bsdf createDiffuse(const Properties& p) {
+  Diffuse b;
+  b.reflectance = p.texture("reflectance");
+  b.scale = energyScale(p, maximum(*b.reflectance));
+  return b;
+}
+
+Bsdf createPhong(const Properties& p) {
+  Phong b;
+  b.diffuse = p.texture("diffuseReflectance");
+  b.specular = p.texture("specularReflectance");
+  b.exponent = p.number("exponent");
+  if (!(b.exponent >= 0)) p.fail("exponent", "the exponent must not be negative");
+  b.scale = energyScale(p, maximum(*b.diffuse) + maximum(*b.specular));
+  b.specularWeight = specularWeight(average(*b.specular), average(*b.diffuse));
+  return b;
+}
+
+Bsdf createConductor(const Properties& p) {
+  Conductor b;
+  b.index = readConductor(p);
+  b.specular = p.texture("specularReflectance");
+  b.scale = energyScale(p, maximum(*b.specular));
+  return b;
+}
+
+Bsdf createRoughConductor(const Properties& p) {
+  RoughConductor b;
+  b.facets = readFacets(p, true);
+  b.index = readConductor(p);
+  b.specular = p.texture("specularReflectance");
+  b.scale = energyScale(p, maximum(*b.specular));
+  return b;
+}
+
+template <class B>
+void readInterface(const Properties& p, B& b) {
+  b.specularReflectance = p.texture("specularReflectance");
+  b.specularTransmittance = p.texture("specularTransmittance");
+  b.reflectanceScale = energyScale(p, maximum(*b.specularReflectance));
+  b.transmittanceScale = energyScale(p, maximum(*b.specularTransmittance));
+}
+
+Bsdf createDielectric(const Properties& p) {
+  Dielectric b;
+  b.eta = relativeIndex(p, false);
+  readInterface(p, b);
+  return b;
+}
+
+Bsdf createRoughDielectric(const Properties& p) {
+  RoughDielectric b;
+  b.facets = readFacets(p, true);
+  b.eta = relativeIndex(p, true);
+  readInterface(p, b);
+  return b;
+}
+
+template <class B>
+void readCoat(const Properties& p, B& b, double internalReflectance) {
+  b.specular = p.texture("specularReflectance");
+  b.specularScale = energyScale(p, maximum(*b.specular));
+  const TexturePtr diffuse = p.texture("diffuseReflectance");
+  const float scale = energyScale(p, maximum(*diffuse));
+  b.specularWeight =
+      specularWeight(average(*b.specular) * b.specularScale, average(*diffuse) * scale);
+  b.base = LayeredDiffuse(diffuse, scale, internalReflectance, b.eta, p.boolean("nonlinear"));
+}
+
+Bsdf createPlastic(const Properties& p) {
+  Plastic b;
+  b.eta = relativeIndex(p, false);
+  readCoat(p, b, fresnelDiffuse(1.0 / b.eta));
+  return b;
+}
+
+Bsdf createRoughPlastic(const Properties& p) {
+  RoughPlastic b;
+  b.facets = readFacets(p, false);
+  b.eta = relativeIndex(p, true);
+  b.transmittance = std::make_shared<const RoughTransmittance>(b.facets, b.eta);
+  readCoat(p, b, b.transmittance->internalReflectance());
+  return b;
+}
+
+constexpr BsdfPlugin kPlugins[] = {
+    {"diffuse", "Lambertian reflection", kDiffuseParameters, createDiffuse},
+    {"lambertian", "Another name of diffuse", kDiffuseParameters, createDiffuse},
+    {"phong", "Modified Phong: a diffuse and a cosine-power lobe", kPhongParameters, createPhong},
+    {"conductor", "Smooth metal", kConductorParameters, createConductor},
+    {"roughconductor", "Rough metal of GGX or Beckmann facets", kRoughConductorParameters,
+     createRoughConductor},
+    {"dielectric", "Smooth glass or water", kDielectricParameters, createDielectric},
+    {"roughdielectric", "Rough glass of GGX or Beckmann facets", kRoughDielectricParameters,
+     createRoughDielectric},
+    {"plastic", "Diffuse under a smooth coat", kPlasticParameters, createPlastic},
+    {"roughplastic", "Diffuse under a rough coat", kRoughPlasticParameters, createRoughPlastic},
+    {"twosided", "The nested BSDF on both sides, or one each for front and back", {}, nullptr, 2},
+    {"mask", "The nested BSDF with holes", kMaskParameters, nullptr, 1},
+};
+
+}  // namespace
+
+std::span<const BsdfPlugin> bsdfPlugins() { return kPlugins; }
+
+}  // namespace h2mc

@@ -1,0 +1,64 @@
+// A smooth interface between two dielectrics: glass, water.
+#pragma once
+
+#include "render/bsdf/bsdf_types.h"
+#include "render/bsdf/fresnel.h"
+#include "render/bsdf/hemisphere.h"
+#include "render/texture/texture.h"
+
+namespace h2mc {
+
+struct Dielectric {
+  static constexpr int kLobes = 2;
+  static constexpr int kReflect = 0, kTransmit = 1;
+  float eta = 1.5f;  // index of the inside (z < 0) over the outside's
+  TexturePtr specularReflectance, specularTransmittance;
+  float reflectanceScale = 1, transmittanceScale = 1;  // to conserve energy
+
+  bool isDelta(int) const { return true; }
+  bool hasNonDelta() const { return false; }
+  bool transmits() const { return true; }
+
+  template <class T>
+  BsdfValue<T> evaluate(const Vec2<T>&, const Vec3<T>&, const Vec3<T>&) const {
+    return BsdfValue<T>::zero();
+  }
+  int chooseLobe(const Vec2f&, const Vec3f& wi, float, float, float choice) const {
+    const float near = wi.z < 0 ? 1 / eta : eta;
+    return choice < fresnelDielectric(std::abs(wi.z), near) ? kReflect : kTransmit;
+  }
+  template <class T>
+  Vec3<T> sample(const Vec2<T>&, const Vec3<T>&, int, const T&, const T&) const {
+    return noDirection<T>();
+  }
+  template <class T>
+  T lobePdf(const Vec2<T>&, const Vec3<T>&, const Vec3<T>&, int) const {
+    return T(0);
+  }
+  bool invert(const Vec2f&, const Vec3f&, const Vec3f&, int, Vec2f&) const { return false; }
+  template <class T>
+  DeltaSample<T> sampleDelta(const Vec2<T>& uv, const Vec3<T>& wi, int lobe) const {
+    using S = Scalar<T>;
+    const bool inside = value(wi.z) < 0;
+    const S relative = inside ? S(1) / S(eta) : S(eta);
+    const T c = inside ? T(-wi.z) : wi.z;
+    if (lobe == kReflect) {
+      const T f = fresnelDielectric(c, relative);
+      if (!(value(f) > 0)) return DeltaSample<T>::none();
+      const Rgb<T> r = modulate<T>(*specularReflectance, uv, f * S(reflectanceScale));
+      return {mirrored(wi), r, r, f};
+    }
+    const S inverse = S(1) / relative;
+    const T cosFar2 = (c * c - S(1)) * (inverse * inverse) + S(1);
+    const T t = transmitDielectric(c, relative);
+    if (!(value(cosFar2) > 0 && value(t) > 0)) return DeltaSample<T>::none();
+    const T cosFar = ad::sqrt(cosFar2);
+    const Rgb<T> r = modulate<T>(*specularTransmittance, uv, t * S(transmittanceScale));
+    return {{wi.x * -inverse, wi.y * -inverse, inside ? cosFar : T(-cosFar)},
+            r * (inverse * inverse), r, t};
+  }
+  float width(int) const { return 0; }
+  Rgbf albedo() const { return average(*specularTransmittance) * transmittanceScale; }
+};
+
+}  // namespace h2mc

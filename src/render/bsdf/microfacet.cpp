@@ -1,0 +1,25 @@
+#include "render/bsdf/microfacet.h"
+
+namespace h2mc {
+
+bool Microfacet::invert(const Vec3<double>& wi, const Vec3<double>& m, Vec2f& u) const {
+  if (!(m.z > 0)) return false;
+  const double a = alpha;
+  if (distribution == FacetDistribution::kBeckmann) {
+    const double tan2 = (m.x * m.x + m.y * m.y) / (m.z * m.z);
+    const double u0 = -std::expm1(-tan2 / (a * a));
+    if (!(u0 < 1)) return false;
+    u = {toUnitInterval(u0), invertAzimuth(m.x, m.y)};
+    return true;
+  }
+  const Vec3<double> w = glm::normalize(Vec3<double>(a * wi.x, a * wi.y, wi.z));
+  const Vec3<double> i = glm::normalize(Vec3<double>(m.x / a, m.y / a, m.z));
+  const double d = dot(w, i);
+  if (!(d > 0)) return false;
+  const Vec3<double> c = 2 * d * i - w;
+  const double down = c.z > 0 ? (c.x * c.x + c.y * c.y) / (1 + c.z) : 1 - c.z;
+  u = {toUnitInterval(down / (1 + w.z)), invertAzimuth(c.x, c.y)};
+  return true;
+}
+
+}  // namespace h2mc

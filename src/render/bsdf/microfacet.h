@@ -1,0 +1,125 @@
+// Isotropic microfacet surfaces [Walter et al. 2007, "Microfacet Models for Refraction through Rough
+// Surfaces"]: the distribution of facet normals, masking, and the sampling of facets.
+//
+// Facets are drawn by coordinates that are smooth in everything and whose second one is an azimuth:
+//
+//  - GGX: visible normals by spherical caps [Dupuy and Benyoub 2023, "Sampling Visible GGX Normals
+//    with Spherical Caps"]. The weight is F G1(wo) <= 1, and at normal incidence the map is the
+//    classic one.
+//  - Beckmann: all normals by D(m) cos(m) [Walter et al., eqs. 28-29]. The exact map of its visible
+//    normals is a root-finding with no azimuth to wrap; this one has a closed inverse. Weights
+//    exceed 1 only at grazing incidence, where masking holds them near 1 / alpha at worst.
+//
+// Directions here have z > 0; a facet's normal m too.
+#pragma once
+
+#include "render/bsdf/hemisphere.h"
+#include "render/bsdf/unary.h"
+
+namespace h2mc {
+
+enum class FacetDistribution : std::uint8_t { kBeckmann, kGgx };
+
+// Reflection by facets, without the Fresnel term.
+template <class T>
+struct FacetReflection {
+  T cosHalf;          // wi.m = wo.m, 0 if nothing is reflected
+  T value;            // D G / (4 |cos(wi)|): BRDF times |cos(wo)|
+  T pdf, pdfReverse;  // of wo given wi, of wi given wo
+  static FacetReflection none() { return {T(0), T(0), T(0), T(0)}; }
+};
+
+struct Microfacet {
+  FacetDistribution distribution = FacetDistribution::kBeckmann;
+  float alpha = 0.1f;
+
+  // D(h / |h|) for h of any length, h.z > 0, with h2 = |h|^2.
+  template <class T>
+  T density(const Vec3<T>& h, const T& h2) const {
+    using S = Scalar<T>;
+    const S a2 = S(alpha) * S(alpha);
+    const T planar = h.x * h.x + h.y * h.y, vertical = h.z * h.z;
+    if (distribution == FacetDistribution::kGgx) {
+      const T ratio = h2 / (vertical + planar * (S(1) / a2));
+      return ratio * ratio * (kInvPiOf<T> / a2);
+    }
+    const T exponent = planar / vertical * (S(-1) / a2);
+    if (!(value(exponent) > S(-80))) return T(0);
+    const T ratio = h2 / vertical;
+    return ad::exp(exponent) * (ratio * ratio) * (kInvPiOf<T> / a2);
+  }
+
+  // G1(w) / cos(w) as a function of c = cos(w) >= 0; finite at c = 0. The facet must not be seen
+  // from behind.
+  template <class T>
+  T maskingOverCos(const T& cosine) const {
+    using S = Scalar<T>;
+    const S a = alpha;
+    const bool ggx = distribution == FacetDistribution::kGgx;
+    return ofOne(cosine, [a, ggx](const auto& c) {
+      using U = std::remove_cvref_t<decltype(c)>;
+      // 2 / (1 + sqrt(1 + alpha^2 tan^2)) [Walter et al., eq. 34]
+      if (ggx) return U(S(2) / (c + ad::sqrt(U(c * c * (S(1) - a * a) + a * a))));
+      // Their rational approximation [eq. 27], in x = 1 / (alpha tan).
+      const S sin2 = S(1) - value(c) * value(c);
+      if (!(value(c) < S(1.6) * a * std::sqrt(std::max(sin2, S(0))))) return U(S(1) / c);
+      const U s = S(1) / (ad::sqrt(U(S(1) - c * c)) * a);
+      const U x = c * s;
+      return U(s * (S(3.535) + S(2.181) * x) / (S(1) + x * (S(2.276) + S(2.577) * x)));
+    });
+  }
+
+  template <class T>
+  FacetReflection<T> reflect(const Vec3<T>& wi, const Vec3<T>& wo) const {
+    using S = Scalar<T>;
+    const Vec3<T> h = wi + wo;
+    const T h2 = ad::length2(h);
+    if (!(value(h2) > kSmallestHalf2)) return FacetReflection<T>::none();
+    const T quarterD = density(h, h2) * S(0.25);
+    if (!(value(quarterD) > 0)) return FacetReflection<T>::none();
+    const T gi = maskingOverCos(wi.z), go = maskingOverCos(wo.z);
+    FacetReflection<T> r;
+    r.cosHalf = ad::sqrt(h2) * S(0.5);
+    r.pdf = quarterD * gi;
+    r.value = r.pdf * go * wo.z;
+    r.pdfReverse = quarterD * go;
+    // D(m) cos(m) / (4 wi.m), the same both ways.
+    if (distribution == FacetDistribution::kBeckmann) r.pdf = r.pdfReverse = quarterD * h.z * (S(2) / h2);
+    return r;
+  }
+
+  // The unit normal of a facet.
+  template <class T>
+  Vec3<T> sample(const Vec3<T>& wi, const T& u0, const T& u1) const {
+    using S = Scalar<T>;
+    const S a = alpha;
+    const T u = awayFromPole(u0);
+    if (distribution == FacetDistribution::kBeckmann) {
+      const T tangent = ad::sqrt(T(-ad::log1p(T(-u)))) * a;
+      const T c = ad::rsqrt(T(tangent * tangent + S(1)));
+      return fromPolar<T>(tangent * c, c, u1);
+    }
+    // wi on the stretched hemisphere, a point of the cap around z that it sees, and the normal
+    // halfway between.
+    const Vec3<T> stretched(wi.x * a, wi.y * a, wi.z);
+    const T inverse = ad::rsqrt(ad::length2(stretched));
+    const T cosine = stretched.z * inverse;
+    const T one = cosine + S(1);
+    const T down = one * u, up = one * (S(1) - u);  // 1 - c.z of the cap's point c, c.z + cos(wi)
+    const T sine = ad::sqrt(T(down * ad::max(T(S(1) - cosine + up), S(kSmallestCoordinate))));
+    const Vec3<T> c = fromPolar<T>(sine, up, u1);
+    const Vec3<T> h((c.x + stretched.x * inverse) * a, (c.y + stretched.y * inverse) * a, c.z);
+    return ad::normalize(h);
+  }
+
+  // The coordinates that draw m (of any length, m.z > 0) when seen from wi; false if none do.
+  bool invert(const Vec3<double>& wi, const Vec3<double>& m, Vec2f& u) const;
+
+  float width() const { return std::min(kPi / 2, 2 * alpha); }
+
+  // Below this |wi + wo|^2 both directions graze the surface from opposite sides; nothing is
+  // reflected there, which leaves out a solid angle of 1e-12 and keeps float derivatives in range.
+  static constexpr float kSmallestHalf2 = 1e-12f;
+};
+
+}  // namespace h2mc

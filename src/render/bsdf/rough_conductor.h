@@ -1,0 +1,54 @@
+// A rough metal: reflection by conducting microfacets.
+#pragma once
+
+#include "render/bsdf/bsdf_types.h"
+#include "render/bsdf/conductor_index.h"
+#include "render/bsdf/microfacet.h"
+#include "render/texture/texture.h"
+
+namespace h2mc {
+
+struct RoughConductor {
+  static constexpr int kLobes = 1;
+  Microfacet facets;
+  ConductorIndex index;
+  TexturePtr specular;
+  float scale = 1;  // of the specular reflectance, to conserve energy
+
+  bool isDelta(int) const { return false; }
+  bool hasNonDelta() const { return true; }
+  bool transmits() const { return false; }
+
+  template <class T>
+  BsdfValue<T> evaluate(const Vec2<T>& uv, const Vec3<T>& wi, const Vec3<T>& wo) const {
+    if (!(value(wi.z) > 0 && value(wo.z) > 0)) return BsdfValue<T>::zero();
+    const FacetReflection<T> r = facets.reflect(wi, wo);
+    if (!(value(r.pdf) > 0)) return BsdfValue<T>::zero();
+    const Rgb<T> scaled = modulate<T>(*specular, uv, r.value * Scalar<T>(scale));
+    return {index.reflect(scaled, r.cosHalf), r.pdf, r.pdfReverse};
+  }
+  int chooseLobe(const Vec2f&, const Vec3f&, float, float, float) const { return 0; }
+  template <class T>
+  Vec3<T> sample(const Vec2<T>&, const Vec3<T>& wi, int, const T& u0, const T& u1) const {
+    if (!(value(wi.z) > 0)) return noDirection<T>();
+    const Vec3<T> m = facets.sample(wi, u0, u1);
+    return m * (ad::dot(wi, m) * Scalar<T>(2)) - wi;
+  }
+  template <class T>
+  T lobePdf(const Vec2<T>&, const Vec3<T>& wi, const Vec3<T>& wo, int) const {
+    return value(wi.z) > 0 && value(wo.z) > 0 ? facets.reflect(wi, wo).pdf : T(0);
+  }
+  bool invert(const Vec2f&, const Vec3f& wi, const Vec3f& wo, int, Vec2f& u) const {
+    if (!(wi.z > 0 && wo.z > 0)) return false;
+    const Vec3<double> in(wi);
+    return facets.invert(in, in + Vec3<double>(wo), u);
+  }
+  template <class T>
+  DeltaSample<T> sampleDelta(const Vec2<T>&, const Vec3<T>&, int) const {
+    return DeltaSample<T>::none();
+  }
+  float width(int) const { return facets.width(); }
+  Rgbf albedo() const { return index.reflect<float>(average(*specular) * scale, 0.8f); }
+};
+
+}  // namespace h2mc

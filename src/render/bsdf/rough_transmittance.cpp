@@ -1,0 +1,105 @@
+#include "render/bsdf/rough_transmittance.h"
+
+#include "render/bsdf/fresnel.h"
+#include "render/bsdf/quadrature.h"
+
+namespace h2mc {
+
+namespace {
+
+using Vec = Vec3<double>;
+
+// 1 - F, times the far side's masking, for one facet m (any length).
+double throughFacet(const Microfacet& facets, double eta, const Vec& wi, const Vec& facet) {
+  const Vec m = glm::normalize(facet);
+  const double c = dot(wi, m);
+  const double cosFar2 = 1 - (1 - c * c) / (eta * eta);
+  if (!(c > 0 && cosFar2 > 0)) return 0;
+  const double down = (wi.z - c * m.z) / eta + std::sqrt(cosFar2) * m.z;  // -wo.z
+  if (!(down > 0)) return 0;
+  return transmitDielectric(c, eta) * facets.maskingOverCos(down) * down;
+}
+
+}  // namespace
+
+// E over visible facets of (1 - F) G1(wo). With facet slopes (p, q) / alpha = their unit version,
+// p along wi, the visible normals have density G1(wi) / cos(wi) P22(p, q) (cos(wi) + alpha p sin(wi)).
+double RoughTransmittance::integrate(const Microfacet& facets, double eta, double cosine) {
+  static const auto nodes = gaussLegendre(48), halfNodes = gaussLegendre(24);
+  const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)), a = facets.alpha;
+  const Vec wi(sine, 0, cosine);
+  double sum = 0;
+  if (facets.distribution == FacetDistribution::kGgx) {
+    // p = tan(t), q = tan(s) / cos(t): P22 dp dq = cos(t) cos(s)^2 / pi dt ds.
+    const double quarter = std::numbers::pi / 2, start = -std::atan2(cosine, a * sine);
+    for (const auto& [x, wx] : nodes) {
+      const double t = start + (quarter - start) * x;
+      const double visible = std::cos(t) * cosine + a * std::sin(t) * sine;
+      double inner = 0;
+      for (const auto& [y, wy] : halfNodes) {
+        const double s = quarter * y, cs = std::cos(s);
+        inner += wy * cs * cs *
+                 throughFacet(facets, eta, wi,
+                              Vec(a * std::sin(t) * cs, a * std::sin(s), std::cos(t) * cs));
+      }
+      sum += wx * (quarter - start) * visible * inner * 2 * quarter * std::numbers::inv_pi;
+    }
+  } else {
+    // P22 = exp(-p^2 - q^2) / pi, cut off where it is below 1e-15.
+    const double cut = 5.9, start = std::max(-cut, sine > 0 ? -cosine / (a * sine) : -cut);
+    for (const auto& [x, wx] : nodes) {
+      const double p = start + (cut - start) * x;
+      const double visible = cosine + a * p * sine;
+      double inner = 0;
+      for (const auto& [y, wy] : halfNodes) {
+        const double q = cut * y;
+        inner += wy * std::exp(-q * q) * throughFacet(facets, eta, wi, Vec(a * p, a * q, 1));
+      }
+      sum += wx * (cut - start) * visible * std::exp(-p * p) * inner * 2 * cut *
+             std::numbers::inv_pi;
+    }
+  }
+  return sum * facets.maskingOverCos(cosine);
+}
+
+RoughTransmittance::RoughTransmittance(const Microfacet& facets, double eta) {
+  constexpr int n = kIntervals;
+  std::vector<double> f(n + 1), m(n + 1), diagonal(n + 1), right(n + 1);
+  for (int i = 0; i <= n; ++i) f[i] = integrate(facets, eta, double(i) * i / (double(n) * n));
+  // Slopes m per interval of a spline with m[0] = 0 (the function is smooth in c, so even in
+  // sqrt(c)) and a third-order difference at the other end: m[i-1] + 4 m[i] + m[i+1] = 3 (f[i+1] -
+  // f[i-1]).
+  m[0] = 0;
+  m[n] = (11 * f[n] - 18 * f[n - 1] + 9 * f[n - 2] - 2 * f[n - 3]) / 6;
+  diagonal[0] = 1;
+  right[0] = 0;
+  for (int i = 1; i < n; ++i) {
+    const double below = i == 1 ? 0 : 1 / diagonal[i - 1];
+    diagonal[i] = 4 - below;
+    right[i] = 3 * (f[i + 1] - f[i - 1]) - (i == n - 1 ? m[n] : 0) - below * right[i - 1];
+  }
+  for (int i = n - 1; i >= 1; --i) m[i] = (right[i] - (i == n - 1 ? 0 : m[i + 1])) / diagonal[i];
+  pieces_.resize(n);
+  for (int i = 0; i < n; ++i) {
+    const double rise = f[i + 1] - f[i];
+    pieces_[static_cast<std::size_t>(i)] = {
+        float(f[i]), float(m[i]), float(3 * rise - 2 * m[i] - m[i + 1]),
+        float(m[i] + m[i + 1] - 2 * rise)};
+  }
+
+  // Diffuse light from inside: 2 int_0^1 T(c) c dc, with nodes gathered at the smooth interface's
+  // critical cosine, where T rises like a root.
+  const double critical = eta > 1 ? std::sqrt(1 - 1 / (eta * eta)) : 0;
+  double through = 0;
+  for (const auto& [s, weight] : gaussLegendre(48)) {
+    const double above = critical + (1 - critical) * s * s;
+    through += weight * 2 * (1 - critical) * s * 2 * above * integrate(facets, 1 / eta, above);
+    if (critical > 0) {
+      const double below = critical * (1 - s * s);
+      through += weight * 2 * critical * s * 2 * below * integrate(facets, 1 / eta, below);
+    }
+  }
+  internalReflectance_ = 1 - through;
+}
+
+}  // namespace h2mc
