@@ -1,6 +1,7 @@
 #include "render/light/area_light.h"
 
 #include <cmath>
+#include <stdexcept>
 
 namespace h2mc {
 
@@ -19,6 +20,7 @@ void AreaLight::prepare(std::span<const Shape> shapes) {
 }
 
 float AreaLight::power(const SceneBounds&) const {
+  if (!(area_ > 0)) throw std::logic_error("AreaLight::prepare has not been called");
   return kPi * area_ * luminance(average(*radiance));
 }
 

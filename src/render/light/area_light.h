@@ -14,13 +14,13 @@ struct AreaLight {
   TexturePtr radiance;
   int shape = -1;  // index of the shape that emits, set when the scene is read
 
-  // Call when `shape` is set and the shapes are in place.
+  // Call when `shape` is set and the shapes are in place, before anything else.
   void prepare(std::span<const Shape> shapes);
 
   bool isDelta() const { return false; }
   bool isInfinite() const { return false; }
   bool isEnvironment() const { return false; }
-  float power(const SceneBounds&) const;
+  float power(const SceneBounds&) const;  // std::logic_error before prepare()
 
   template <class T>
   DirectLight<T> sampleDirect(const LightContext& context, PrimitiveId primitive,
@@ -46,7 +46,7 @@ struct AreaLight {
   Vec3<T> aroundNormal(const Vec3<T>& normal, const Vec3<T>& local) const;
 
   DiscreteDistribution triangles_;  // by area; empty for shapes that are sampled whole
-  float area_ = 1;
+  float area_ = 0;                  // until prepare()
   bool wraps_ = false;
   bool curved_ = false;  // the geometric normal varies within a primitive
 };
