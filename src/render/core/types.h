@@ -13,6 +13,15 @@ namespace h2mc {
 
 using ad::Scalar;
 using ad::value;
+// Unqualified calls then mean these for plain numbers too, never the C library's double versions.
+using ad::abs;
+using ad::distance2;
+using ad::dot;
+using ad::exp;
+using ad::length2;
+using ad::log;
+using ad::normalize;
+using ad::sqrt;
 using ad::Vec2;
 using ad::Vec3;
 using Vec2f = Vec2<float>;

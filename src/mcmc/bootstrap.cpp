@@ -1,0 +1,91 @@
+#include "mcmc/bootstrap.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/integrator/parallel_rounds.h"
+#include "render/path/bidirectional.h"
+
+namespace h2mc {
+namespace {
+constexpr std::uint64_t kStream = 0x626f6f74;  // apart from the chains' streams
+constexpr long long kBlock = 4096;
+}  // namespace
+
+Bootstrap::Bootstrap(const Scene& scene, int minLength, int maxLength, long long samples,
+                     std::uint64_t seed, int threads)
+    : scene_(scene), minLength_(minLength), maxLength_(maxLength), seed_(seed) {
+  const TechniqueDistribution techniques(minLength, maxLength);
+  const auto count = static_cast<std::size_t>(techniques.size());
+  struct Block {
+    std::vector<double> mean, squares;
+    long long notFinite = 0;
+  };
+  const auto blocks = static_cast<int>((samples + kBlock - 1) / kBlock);
+  std::vector<Block> block(static_cast<std::size_t>(blocks));
+  cumulative_.resize(static_cast<std::size_t>(samples));
+  parallelFor(threads, blocks, [&](int b) {
+    Block& own = block[static_cast<std::size_t>(b)];
+    own.mean.assign(count, 0);
+    own.squares.assign(count, 0);
+    BidirectionalSampler sampler(maxLength);
+    for (long long i = b * kBlock; i < std::min(samples, (b + 1) * kBlock); ++i) {
+      Random random(seed, kStream, static_cast<std::uint64_t>(i));
+      double sum = 0;
+      own.notFinite += sampler.sample(
+          scene, random, -1, -1, minLength, [&](const BidirectionalSampler::Connection& c) {
+            const double y = h2mc::luminance(c.contribution);
+            const auto k = static_cast<std::size_t>(techniques.index(c.technique));
+            own.mean[k] += y;
+            own.squares[k] += y * y;
+            sum += y;
+          });
+      cumulative_[static_cast<std::size_t>(i)] = sum;
+    }
+  });
+  techniqueMean_.assign(count, 0);
+  techniqueSquares_.assign(count, 0);
+  for (const Block& own : block) {
+    for (std::size_t k = 0; k < count; ++k) {
+      techniqueMean_[k] += own.mean[k] / static_cast<double>(samples);
+      techniqueSquares_[k] += own.squares[k] / static_cast<double>(samples);
+    }
+    notFinite_ += own.notFinite;
+  }
+  double total = 0;
+  for (double& c : cumulative_) {
+    luminance_.add(c);
+    c = total += c;
+  }
+}
+
+void Bootstrap::drawStart(Random& random, Path& start) const {
+  const double u = random.uniformDouble() * cumulative_.back();
+  const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), u);
+  const auto index = std::min(found, cumulative_.end() - 1) - cumulative_.begin();
+
+  // The sample again, and one of its techniques in proportion to what it adds.
+  BidirectionalSampler sampler(maxLength_);
+  Random replay(seed_, kStream, static_cast<std::uint64_t>(index));
+  std::vector<std::pair<Technique, double>> parts;
+  double sum = 0;
+  sampler.sample(scene_, replay, -1, -1, minLength_,
+                 [&](const BidirectionalSampler::Connection& c) {
+                   parts.emplace_back(c.technique, h2mc::luminance(c.contribution));
+                   sum += parts.back().second;
+                 });
+  double v = random.uniformDouble() * sum;
+  std::size_t k = 0;
+  while (k + 1 < parts.size() && (v -= parts[k].second) >= 0) ++k;
+  start.technique = parts[k].first;
+  start.sample = sampler.primarySample(start.technique);
+  tracePath(scene_, start);
+  if (!(std::abs(start.target - parts[k].second) <= 1e-3 * parts[k].second))
+    throw ReplayError(fmt::format(
+        "bootstrap sample {} (seed {}), technique s={} t={}: replayed luminance {} is not {}", index,
+        seed_, start.technique.s, start.technique.t, start.target, parts[k].second));
+}
+
+}  // namespace h2mc

@@ -1,0 +1,47 @@
+// Where chains start, and how bright the image is: bidirectional path tracing over the whole film.
+#pragma once
+
+#include <stdexcept>
+
+#include "mcmc/statistics.h"
+#include "mcmc/target.h"
+#include "mcmc/technique_distribution.h"
+
+namespace h2mc {
+
+// A replayed bootstrap sample did not give the luminance that the bootstrap saw: the two ways of
+// tracing disagree, and no chain may start. A bug in the renderer, never bad input.
+class ReplayError : public std::logic_error {
+ public:
+  using std::logic_error::logic_error;
+};
+
+class Bootstrap {
+ public:
+  // Traces `samples` bidirectional samples of path lengths minLength .. maxLength; sample i draws
+  // from Random(seed, its own stream, i). The same result for any number of threads.
+  Bootstrap(const Scene& scene, int minLength, int maxLength, long long samples, std::uint64_t seed,
+            int threads);
+
+  // Luminance of a whole sample: its mean is the film's mean luminance (of these path lengths).
+  const Moments& luminance() const { return luminance_; }
+  // Mean luminance by technique, and the mean square; in the order of TechniqueDistribution.
+  const std::vector<double>& techniqueLuminance() const { return techniqueMean_; }
+  const std::vector<double>& techniqueSquares() const { return techniqueSquares_; }
+  long long notFinite() const { return notFinite_; }
+
+  // A path drawn in proportion to its target, evaluated. Precondition: luminance().mean() > 0.
+  // Throws ReplayError.
+  void drawStart(Random& random, Path& start) const;
+
+ private:
+  const Scene& scene_;
+  int minLength_, maxLength_;
+  std::uint64_t seed_;
+  std::vector<double> cumulative_;  // of the samples' luminances
+  Moments luminance_;
+  std::vector<double> techniqueMean_, techniqueSquares_;
+  long long notFinite_ = 0;
+};
+
+}  // namespace h2mc

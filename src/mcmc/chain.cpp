@@ -1,0 +1,110 @@
+#include "mcmc/chain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/integrator/parallel_rounds.h"
+
+namespace h2mc {
+namespace {
+
+// One mutation in so many is timed: often enough to know the shares, seldom enough not to matter.
+constexpr long long kTimedEvery = 64;
+
+// The coordinates that trace a path again.
+std::string describe(const Path& path) {
+  std::string text = fmt::format("s={} t={} u=", path.technique.s, path.technique.t);
+  for (int i = 0; i < path.technique.dimension(); ++i)
+    text += fmt::format("{}{:a}", i ? "," : "", path.sample.u[static_cast<std::size_t>(i)]);
+  text += " choice=";
+  for (int i = 0; i < path.technique.choices(); ++i)
+    text += fmt::format("{}{:a}", i ? "," : "", path.sample.choice[static_cast<std::size_t>(i)]);
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> KernelMixture::kindNames() const {
+  std::vector<std::string> names{std::string(large->name())};
+  for (const Small& s : small) names.emplace_back(s.mutation->name());
+  return names;
+}
+
+Chain::Chain(const Target& target, const Path& start, Random random)
+    : current_(std::make_unique<ChainState>(target.maxLength())),
+      proposed_(std::make_unique<ChainState>(target.maxLength())),
+      random_(random) {
+  current_->path.technique = start.technique;
+  current_->path.sample = start.sample;
+  target.evaluate(current_->path);
+}
+
+void Chain::splat(const Path& path, double weight, Film& film) {
+  if (weight > 0)
+    film.splat(path.filmX, path.filmY, path.contribution * static_cast<float>(weight / path.target));
+}
+
+void Chain::flush(Film& film) {
+  splat(current_->path, weight_, film);
+  weight_ = 0;
+}
+
+void Chain::step(KernelMixture& kernels, Film& film, ChainStatistics& statistics,
+                 MutationContext& context) {
+  context.random = &random_;
+  context.timed = steps_++ % kTimedEvery == 0;
+  context.seconds = {};
+  RaySeconds rays(context.timed);
+  const double start = context.timed ? wallClock() : 0;
+
+  // Which kernel.
+  Mutation* mutation = kernels.large.get();
+  std::size_t kind = 0;
+  if (random_.uniform() >= kernels.largeProbability) {
+    const bool camera = current_->path.technique.t >= 2;
+    double u = random_.uniform();
+    for (kind = 1; kind < kernels.small.size(); ++kind) {
+      const KernelMixture::Small& small = kernels.small[kind - 1];
+      u -= camera ? small.cameraShare : small.lightShare;
+      if (u < 0) break;
+    }
+    mutation = kernels.small[kind - 1].mutation.get();
+  }
+
+  proposed_->forget();
+  proposed_->path.finite = true;
+  double logRatio = 0;
+  const bool made = mutation->propose(*current_, *proposed_, context, logRatio);
+  double acceptance = 0;
+  if (made) {
+    const double ratio = double(proposed_->path.target) / current_->path.target * std::exp(logRatio);
+    acceptance = std::isfinite(ratio) ? std::min(1.0, ratio) : (ratio > 0 ? 1.0 : 0.0);
+  } else if (!proposed_->path.finite) {
+    if (statistics.notFinite++ == 0) statistics.firstNotFinite = describe(proposed_->path);
+  }
+
+  // Both states count with their expected weights [Veach 1997, section 11.4].
+  weight_ += 1 - acceptance;
+  AcceptanceCount& count =
+      statistics.acceptance[kind][static_cast<std::size_t>(current_->path.technique.length())];
+  ++count.proposed;
+  count.expected += acceptance;
+  if (kind == 0) statistics.largeSteps.add(kernels.large->lastEstimate());
+  if (acceptance > 0 && random_.uniform() < acceptance) {
+    flush(film);
+    std::swap(current_, proposed_);
+    weight_ = acceptance;
+    moved_ = true;
+  } else if (acceptance > 0) {
+    splat(proposed_->path, acceptance, film);
+  }
+  ++statistics.mutations;
+  if (context.timed) {
+    statistics.profile.add({1, wallClock() - start, rays.seconds(), context.seconds.derivatives,
+                            context.seconds.gaussian});
+  }
+}
+
+}  // namespace h2mc

@@ -1,0 +1,42 @@
+// Multiplexed Metropolis light transport with Hessian-Hamiltonian small steps [Li et al. 2015].
+#include "mcmc/h2mc.h"
+
+#include "mcmc/lens_step.h"
+#include "mcmc/metropolis_options.h"
+#include "mcmc/small_step.h"
+
+namespace h2mc {
+namespace {
+
+constexpr auto kParameters = withShared(std::array{
+    Parameter{"isotropicProbability", ParameterType::kNumber, "0.2",
+              "share of isotropic steps among those that are neither large nor of the lens"},
+    Parameter{"trajectoryLength", ParameterType::kNumber, "1.5707963",
+              "length of the Hamiltonian trajectory, 0 < L < pi"},
+    Parameter{"maxDrift", ParameterType::kNumber, "3",
+              "longest drift of a proposal along an eigenvector, in its standard deviations"},
+});
+
+std::vector<KernelMixture::Small> smallSteps(const SceneTarget& target, const OptionSet& options) {
+  const HamiltonianSettings settings{static_cast<float>(options.number("sigma")),
+                                     static_cast<float>(options.number("trajectoryLength")),
+                                     static_cast<float>(options.number("maxDrift"))};
+  const double lens = options.number("lensProbability");
+  const double isotropic = options.number("isotropicProbability");
+  std::vector<KernelMixture::Small> steps;
+  steps.push_back({makeLensStep(target, options), lens, 0});
+  steps.push_back({std::make_unique<IsotropicStep>(target, StepShape::kGaussian, settings.sigma),
+                   (1 - lens) * isotropic, isotropic});
+  steps.push_back({std::make_unique<HamiltonianStep>(target, settings),
+                   (1 - lens) * (1 - isotropic), 1 - isotropic});
+  return steps;
+}
+
+}  // namespace
+
+MetropolisMethod h2mcMethod() {
+  return {{"h2mc", "Metropolis light transport with Hessian-Hamiltonian proposals", kParameters},
+          smallSteps};
+}
+
+}  // namespace h2mc

@@ -1,0 +1,19 @@
+// The Metropolis integrators: bootstrap, chains, a mixture of mutations, a film. A method is the
+// mixture that it runs.
+#pragma once
+
+#include "mcmc/chain.h"
+#include "render/integrator/integrator.h"
+
+namespace h2mc {
+
+// A method: its options and the small steps it runs.
+struct MetropolisMethod {
+  IntegratorPlugin plugin;
+  std::vector<KernelMixture::Small> (*smallSteps)(const SceneTarget& target, const OptionSet& options);
+};
+
+std::unique_ptr<Integrator> makeMetropolisIntegrator(const MetropolisMethod& method,
+                                                     const OptionSet& options);
+
+}  // namespace h2mc

@@ -1,0 +1,61 @@
+// States and the kernels that move between them.
+#pragma once
+
+#include <string_view>
+
+#include "mcmc/gaussian.h"
+#include "mcmc/target.h"
+
+namespace h2mc {
+
+// A chain's state: a path with what has been derived from it so far. What is derived is a function
+// of the path alone, made on first use and kept until the path changes.
+struct ChainState {
+  explicit ChainState(int maxLength) : path(maxLength) {}
+
+  Path path;
+  bool hasGaussian = false;
+  Gaussian gaussian;
+  bool hasLens = false;
+  Gaussian lens;
+
+  // The path is about to change.
+  void forget() { hasGaussian = hasLens = false; }
+};
+
+// How often derivatives were wanted and what came of it.
+struct DerivativeCounts {
+  long long computed = 0;
+  long long notFinite = 0;   // the prior took their place
+  long long dimension = 0;   // too many coordinates for the derivative: likewise
+};
+
+// Seconds that sampled mutations spent in each part; see Profile.
+struct PhaseSeconds {
+  double derivatives = 0, gaussian = 0;
+};
+
+// What a mutation works with; one a group of chains.
+struct MutationContext {
+  Random* random = nullptr;
+  DerivativeCounts derivatives;
+  PhaseSeconds seconds;
+  bool timed = false;  // this mutation's phases are measured
+};
+
+// A proposal kernel. It makes proposals and says their densities; acceptance, splatting and
+// statistics are the chain's.
+class Mutation {
+ public:
+  virtual ~Mutation() = default;
+  virtual std::string_view name() const = 0;
+
+  // Proposes `proposed` from `current` and evaluates it. False when nothing was proposed or the
+  // target is zero there: the proposal is then rejected. Otherwise `logRatio` is
+  // log q(proposed -> current) - log q(current -> proposed), with respect to the primary measure of
+  // all techniques' spaces together. `current` changes only in what is derived from it.
+  virtual bool propose(ChainState& current, ChainState& proposed, MutationContext& context,
+                       double& logRatio) = 0;
+};
+
+}  // namespace h2mc

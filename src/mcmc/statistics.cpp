@@ -1,0 +1,81 @@
+#include "mcmc/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace h2mc {
+
+double Moments::variance() const {
+  if (count < 2) return 0;
+  const double n = static_cast<double>(count), m = sum / n;
+  return std::max(0.0, squares / n - m * m) * n / (n - 1);
+}
+
+double Moments::standardError() const {
+  return count > 0 ? std::sqrt(variance() / static_cast<double>(count)) : 0;
+}
+
+void Profile::add(const Profile& other) {
+  mutations += other.mutations;
+  total += other.total;
+  rays += other.rays;
+  derivatives += other.derivatives;
+  gaussian += other.gaussian;
+}
+
+ChainStatistics::ChainStatistics(int mutationKinds, int maxLength)
+    : acceptance(static_cast<std::size_t>(mutationKinds),
+                 std::vector<AcceptanceCount>(static_cast<std::size_t>(maxLength) + 1)) {}
+
+void ChainStatistics::add(const ChainStatistics& other) {
+  for (std::size_t kind = 0; kind < acceptance.size(); ++kind)
+    for (std::size_t length = 0; length < acceptance[kind].size(); ++length)
+      acceptance[kind][length].add(other.acceptance[kind][length]);
+  derivatives.computed += other.derivatives.computed;
+  derivatives.notFinite += other.derivatives.notFinite;
+  derivatives.dimension += other.derivatives.dimension;
+  largeSteps.add(other.largeSteps);
+  profile.add(other.profile);
+  mutations += other.mutations;
+  notFinite += other.notFinite;
+  if (firstNotFinite.empty()) firstNotFinite = other.firstNotFinite;
+}
+
+nlohmann::json ChainStatistics::json(const std::vector<std::string>& kindNames) const {
+  const auto rate = [](const AcceptanceCount& c) {
+    return nlohmann::json{
+        {"proposed", c.proposed},
+        {"acceptance", c.proposed > 0 ? c.expected / static_cast<double>(c.proposed) : 0.0}};
+  };
+  nlohmann::json kinds = nlohmann::json::object();
+  for (std::size_t kind = 0; kind < acceptance.size(); ++kind) {
+    AcceptanceCount all;
+    nlohmann::json byLength = nlohmann::json::object();
+    for (std::size_t length = 0; length < acceptance[kind].size(); ++length) {
+      const AcceptanceCount& count = acceptance[kind][length];
+      all.add(count);
+      if (count.proposed > 0) byLength[std::to_string(length)] = rate(count);
+    }
+    kinds[kindNames[kind]] = rate(all);
+    kinds[kindNames[kind]]["by path length"] = byLength;
+  }
+  const auto share = [&](double seconds) { return profile.total > 0 ? seconds / profile.total : 0.0; };
+  nlohmann::json result = {
+      {"mutations", mutations},
+      {"mutation kinds", kinds},
+      {"derivatives",
+       {{"computed", derivatives.computed},
+        {"not finite", derivatives.notFinite},
+        {"too many coordinates", derivatives.dimension}}},
+      {"time shares",
+       {{"tracing", share(profile.rays)},
+        {"derivatives", share(profile.derivatives)},
+        {"gaussian", share(profile.gaussian)},
+        {"contribution and rest",
+         share(profile.total - profile.rays - profile.derivatives - profile.gaussian)}}},
+      {"not finite", notFinite}};
+  if (!firstNotFinite.empty()) result["first not finite"] = firstNotFinite;
+  return result;
+}
+
+}  // namespace h2mc

@@ -1,0 +1,67 @@
+// Bidirectional path tracing with all techniques, light tracing included [Veach 1997, ch. 10].
+#include "render/integrator/bdpt_integrator.h"
+
+#include "render/integrator/sampling_integrator.h"
+#include "render/path/bidirectional.h"
+
+namespace h2mc {
+namespace {
+
+class BdptSampler final : public PixelSampler {
+ public:
+  BdptSampler(int minLength, int maxLength) : minLength_(minLength), sampler_(maxLength) {}
+
+  double sample(const Scene& scene, std::uint64_t seed, std::uint64_t pixel, std::uint64_t pass,
+                Film& film, SampleTally& tally) override {
+    Random random(seed, pixel, pass);
+    const auto width = static_cast<std::uint64_t>(film.width());
+    const float x = (static_cast<float>(pixel % width) + random.uniform()) / static_cast<float>(width);
+    const float y = (static_cast<float>(pixel / width) + random.uniform()) /
+                    static_cast<float>(film.height());
+    double added = 0;
+    tally.notFinite += sampler_.sample(
+        scene, random, std::min(x, kBelowOne), std::min(y, kBelowOne), minLength_,
+        [&](const BidirectionalSampler::Connection& c) {
+          film.splat(c.filmX, c.filmY, c.contribution);
+          added += luminance(c.contribution);
+        });
+    return added;
+  }
+
+ private:
+  int minLength_;
+  BidirectionalSampler sampler_;
+};
+
+class BdptIntegrator final : public Integrator {
+ public:
+  explicit BdptIntegrator(const OptionSet& options)
+      : options_(options), maxDepth_(maxPathLength(options.integer("maxDepth"))) {}
+
+  RenderResult render(const Scene& scene, const RenderRequest& request) override {
+    return renderSamples(scene, request, options_.integer("samplesPerPixel"), [&] {
+      return std::make_unique<BdptSampler>(options_.integer("minDepth"), maxDepth_);
+    });
+  }
+
+ private:
+  OptionSet options_;
+  int maxDepth_;
+};
+
+constexpr Parameter kParameters[] = {
+    kMaxDepthParameter,
+    kMinDepthParameter,
+    {"samplesPerPixel", ParameterType::kInteger, "64", "samples for each pixel, if no budget is given"},
+};
+
+}  // namespace
+
+IntegratorFactory bdptIntegrator() {
+  return {{"bdpt", "bidirectional path tracing, all techniques, power heuristic", kParameters},
+          [](const OptionSet& options) -> std::unique_ptr<Integrator> {
+            return std::make_unique<BdptIntegrator>(options);
+          }};
+}
+
+}  // namespace h2mc

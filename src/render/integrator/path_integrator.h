@@ -1,0 +1,10 @@
+#pragma once
+
+#include "render/integrator/common_options.h"
+#include "render/integrator/integrator.h"
+
+namespace h2mc {
+
+IntegratorFactory pathIntegrator();
+
+}  // namespace h2mc

@@ -1,0 +1,81 @@
+#include "render/integrator/sampling_integrator.h"
+
+#include <cmath>
+
+#include "render/integrator/parallel_rounds.h"
+
+namespace h2mc {
+
+RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
+                           int defaultSamplesPerPixel,
+                           const std::function<std::unique_ptr<PixelSampler>()>& makeSampler) {
+  const int width = scene.film.width, height = scene.film.height;
+  const int groups = groupCount(scene.film);
+  struct Group {
+    Film film;
+    std::unique_ptr<PixelSampler> sampler;
+    SampleTally tally;
+  };
+  std::vector<Group> work;
+  work.reserve(static_cast<std::size_t>(groups));
+  for (int i = 0; i < groups; ++i) work.push_back({Film(scene.film), makeSampler(), {}});
+
+  RoundsPlan plan;
+  plan.seconds = request.budget.seconds;
+  if (plan.seconds <= 0) {
+    // A sample is what a mutation is compared with.
+    plan.rounds = request.budget.samplesPerPixel + request.budget.mutationsPerPixel;
+    if (plan.rounds == 0) plan.rounds = defaultSamplesPerPixel;
+  }
+  plan.unitsPerRound = static_cast<double>(width) * height;
+  plan.unit = "samples";
+
+  const RoundsResult rounds = runRounds(request, groups, plan, [&](int index, long long round) {
+    Group& group = work[static_cast<std::size_t>(index)];
+    SampleTally& tally = group.tally;
+    for (int y = index; y < height; y += groups) {
+      for (int x = 0; x < width; ++x) {
+        const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width) +
+                           static_cast<std::uint64_t>(x);
+        const double added = group.sampler->sample(scene, request.seed, pixel,
+                                                   static_cast<std::uint64_t>(round), group.film,
+                                                   tally);
+        tally.luminance += added;
+        tally.squares += added * added;
+        ++tally.samples;
+      }
+    }
+  });
+
+  SampleTally total;
+  for (const Group& group : work) {
+    total.luminance += group.tally.luminance;
+    total.squares += group.tally.squares;
+    total.samples += group.tally.samples;
+    total.notFinite += group.tally.notFinite;
+  }
+  for (std::size_t i = 1; i < work.size(); ++i) work[0].film.merge(work[i].film);
+
+  RenderResult result;
+  const double n = static_cast<double>(total.samples);
+  result.image = work[0].film.develop(n > 0 ? 1 / n : 0);
+  result.wallSeconds = rounds.wallSeconds;
+  result.cpuSeconds = rounds.cpuSeconds;
+  result.interrupted = rounds.interrupted;
+  result.samples = total.samples;
+  result.sampleUnit = "samples";
+  if (n > 0) {
+    result.meanLuminance = total.luminance / n;
+    result.meanLuminanceError =
+        std::sqrt(std::max(0.0, total.squares / n - result.meanLuminance * result.meanLuminance) / n);
+  }
+  result.statistics = {{"samples", total.samples},
+                       {"samples per pixel", rounds.rounds},
+                       {"samples per second", n / std::max(rounds.wallSeconds, 1e-9)},
+                       {"not finite", total.notFinite},
+                       {"mean luminance", result.meanLuminance},
+                       {"mean luminance standard error", result.meanLuminanceError}};
+  return result;
+}
+
+}  // namespace h2mc

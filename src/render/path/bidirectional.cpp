@@ -1,0 +1,116 @@
+#include "render/path/bidirectional.h"
+
+#include <algorithm>
+
+namespace h2mc {
+
+namespace {
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+}  // namespace
+
+BidirectionalSampler::BidirectionalSampler(int maxLength)
+    : maxLength_(maxLength),
+      cameraPath_(maxLength),
+      lightPath_(maxLength),
+      direct_(at(maxLength) + 1) {
+  cameraPath_.technique = {0, maxLength + 1};
+  lightPath_.technique = {maxLength, 1};
+}
+
+void BidirectionalSampler::draw(const Scene& scene, Random& random, float filmX, float filmY) {
+  // Coordinates are drawn where they are first needed, in an order that the random stream alone
+  // fixes: camera subpath, light subpath, then a light for each camera vertex.
+  Path& camera = cameraPath_;
+  camera.sample.u[0] = filmX_ = filmX < 0 ? random.uniform() : filmX;
+  camera.sample.u[1] = filmY_ = filmY < 0 ? random.uniform() : filmY;
+  cameraVertices_ = 0;
+  escaped_ = false;
+  for (int i = 1; i <= maxLength_; ++i) {
+    if (i > 1) {
+      const Technique& technique = camera.technique;
+      camera.sample.u[at(technique.cameraCoordinate(i - 1))] = random.uniform();
+      camera.sample.u[at(technique.cameraCoordinate(i - 1)) + 1] = random.uniform();
+      camera.sample.choice[at(technique.cameraChoice(i - 1))] = random.uniform();
+    }
+    const Step step = stepCamera(scene, camera, i);
+    escaped_ = step == Step::kEscaped;
+    if (step != Step::kArrived) break;
+    cameraVertices_ = i;
+  }
+
+  Path& light = lightPath_;
+  lightVertices_ = 0;
+  light.sample.choice[0] = random.uniform();
+  for (int i = 0; i < 4; ++i) light.sample.u[at(i)] = random.uniform();
+  if (!pickLight(scene, light.sample.choice[0], light.lightIndex, light.lightPrimitive)) return;
+  for (int i = 1; i < maxLength_; ++i) {
+    if (i > 1) {
+      const Technique& technique = light.technique;
+      light.sample.u[at(technique.lightCoordinate(i - 1))] = random.uniform();
+      light.sample.u[at(technique.lightCoordinate(i - 1)) + 1] = random.uniform();
+      light.sample.choice[at(technique.lightChoice(i - 1))] = random.uniform();
+    }
+    if (stepLight(scene, light, i) != Step::kArrived) break;
+    lightVertices_ = i;
+  }
+  for (int i = 1; i <= cameraVertices_; ++i)
+    direct_[at(i)] = {random.uniform(), random.uniform(), random.uniform()};
+}
+
+bool BidirectionalSampler::reaches(const Technique& technique) const {
+  const auto [s, t] = technique;
+  if (s - 1 > lightVertices_) return false;
+  if (s == 0 && escaped_ && t - 1 == cameraVertices_ + 1) return true;
+  return t - 1 <= cameraVertices_;
+}
+
+bool BidirectionalSampler::join(const Scene& scene, Connection& connection, int& notFinite) {
+  const auto [s, t] = connection.technique;
+  const bool escaped = t - 1 > cameraVertices_;
+  if (escaped && scene.environment < 0) return false;
+  Ends ends{connection.technique,
+            escaped ? nullptr : &cameraPath_.camera[at(t) - 1],
+            s >= 2 ? &lightPath_.light[at(s) - 1] : nullptr,
+            &cameraPath_.lastRay,
+            lightPath_.lightIndex,
+            lightPath_.lightPrimitive,
+            0,
+            0};
+  if (s == 1) {
+    const Direct& direct = direct_[at(t) - 1];
+    if (!pickLight(scene, direct.choice, ends.lightIndex, ends.lightPrimitive)) return false;
+    ends.u0 = direct.u0;
+    ends.u1 = direct.u1;
+  }
+  const Joined joined = h2mc::join(scene, ends);
+  notFinite += !joined.finite;
+  connection.contribution = joined.contribution;
+  if (t == 1) {
+    connection.filmX = joined.filmX;
+    connection.filmY = joined.filmY;
+  }
+  return luminance(joined.contribution) > 0;
+}
+
+PrimarySample BidirectionalSampler::primarySample(const Technique& technique) const {
+  const auto [s, t] = technique;
+  PrimarySample sample;
+  const auto copy = [](auto& to, int toIndex, const auto& from, int fromIndex, int count) {
+    std::copy_n(from.begin() + fromIndex, count, to.begin() + toIndex);
+  };
+  copy(sample.u, 0, cameraPath_.sample.u, 0, technique.lightOffset());
+  copy(sample.choice, 0, cameraPath_.sample.choice, 0, technique.cameraScatterings());
+  if (s == 1) {
+    const Direct& direct = direct_[at(t) - 1];
+    sample.u[at(technique.lightOffset())] = direct.u0;
+    sample.u[at(technique.lightOffset()) + 1] = direct.u1;
+    sample.choice[at(technique.lightPick())] = direct.choice;
+  } else if (s >= 2) {
+    copy(sample.u, technique.lightOffset(), lightPath_.sample.u, 0, 2 * s);
+    copy(sample.choice, technique.lightPick(), lightPath_.sample.choice, 0,
+         1 + technique.lightScatterings());
+  }
+  return sample;
+}
+
+}  // namespace h2mc

@@ -1,0 +1,66 @@
+// One bidirectional sample: a camera and a light subpath, joined in every way [Veach 1997, ch. 10].
+#pragma once
+
+#include <vector>
+
+#include "render/core/random.h"
+#include "render/path/path.h"
+
+namespace h2mc {
+
+// Traces pairs of subpaths and evaluates all techniques up to a length. Keeps the coordinates it
+// draws, so that any technique's path can be traced again by itself. Allocates once.
+class BidirectionalSampler {
+ public:
+  explicit BidirectionalSampler(int maxLength);
+
+  struct Connection {
+    Technique technique;
+    float filmX, filmY;
+    Rgbf contribution;  // MIS weighted; summed over the techniques it estimates the image
+  };
+
+  // Draws a sample with its camera ray through (filmX, filmY) in [0,1)^2, or anywhere if negative,
+  // and calls `visit(const Connection&)` for every technique of length minLength .. maxLength that
+  // contributes. Returns the number of contributions that were not finite: those are left out.
+  template <class Visit>
+  int sample(const Scene& scene, Random& random, float filmX, float filmY, int minLength,
+             Visit&& visit) {
+    draw(scene, random, filmX, filmY);
+    int notFinite = 0;
+    for (int length = minLength; length <= maxLength_; ++length) {
+      for (int s = 0; s <= length; ++s) {
+        const Technique technique{s, length + 1 - s};
+        if (technique == Technique{1, 1} || !reaches(technique)) continue;
+        Connection c{technique, filmX_, filmY_, Rgbf(0)};
+        if (!join(scene, c, notFinite)) continue;
+        visit(c);
+      }
+    }
+    return notFinite;
+  }
+
+  // The primary sample with which tracePath gives the last sample's connection of this technique.
+  PrimarySample primarySample(const Technique& technique) const;
+
+ private:
+  void draw(const Scene& scene, Random& random, float filmX, float filmY);
+  bool reaches(const Technique& technique) const;
+  bool join(const Scene& scene, Connection& connection, int& notFinite);
+
+  int maxLength_;
+  float filmX_ = 0, filmY_ = 0;
+  // Both subpaths at full length; their coordinates in the layout of PrimarySample for (0, t) and
+  // (s, 1). lightSample_.choice[0] picks the light.
+  Path cameraPath_, lightPath_;
+  int cameraVertices_ = 0;  // traced, after the eye
+  int lightVertices_ = 0;   // traced, after the one on the light
+  bool escaped_ = false;    // the edge after the last camera vertex leaves the scene
+  // Each camera vertex samples a light of its own.
+  struct Direct {
+    float u0, u1, choice;
+  };
+  std::vector<Direct> direct_;
+};
+
+}  // namespace h2mc

@@ -1,0 +1,57 @@
+#include "render/path/derivative.h"
+
+#include <cmath>
+
+#include "render/path/derivative_growing.h"
+
+namespace h2mc {
+
+namespace growing {
+extern template struct LogTarget<2>;
+extern template struct LogTarget<4>;
+extern template struct LogTarget<6>;
+extern template struct LogTarget<8>;
+extern template struct LogTarget<10>;
+extern template struct LogTarget<12>;
+extern template struct LogTarget<14>;
+extern template struct LogTarget<16>;
+}  // namespace growing
+
+namespace {
+
+template <int N>
+void store(const ad::Dual2<float, N>& value, Derivative& result) {
+  result.logTarget = value.v;
+  for (int i = 0, k = 0; i < N; ++i) {
+    result.gradient[i] = value.gradient(i);
+    for (int j = 0; j <= i; ++j, ++k) result.hessian[k] = value.hessian(i, j);
+  }
+}
+
+template <int N>
+bool dispatch(const Scene& scene, const Path& path, Derivative& result) {
+  if constexpr (N > kMaxDerivativeDimension) {
+    return false;
+  } else {
+    if (result.dimension != N) return dispatch<N + 2>(scene, path, result);
+    store<N>(growing::LogTarget<N>::evaluate(scene, path), result);
+    return true;
+  }
+}
+
+}  // namespace
+
+bool Derivative::finite() const {
+  // A sum is finite only if all of its terms are (up to overflow, which is no use either).
+  float sum = std::abs(logTarget);
+  for (int i = 0; i < dimension; ++i) sum += std::abs(gradient[i]);
+  for (int i = 0; i < dimension * (dimension + 1) / 2; ++i) sum += std::abs(hessian[i]);
+  return sum <= std::numeric_limits<float>::max();
+}
+
+bool differentiate(const Scene& scene, const Path& path, Derivative& result) {
+  result.dimension = path.technique.dimension();
+  return dispatch<2>(scene, path, result);
+}
+
+}  // namespace h2mc

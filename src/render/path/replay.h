@@ -1,0 +1,79 @@
+// A traced path evaluated again on its frozen topology, over any scalar type: no rays, no choices.
+#pragma once
+
+#include "render/path/path.h"
+
+namespace h2mc {
+
+// The log of the target (luminance of the MIS-weighted contribution over its density) as a function
+// of all of the path's primary coordinates `u`, in the scalar T. The oracle for derivatives: T =
+// double and finite differences, or a dual with every coordinate active from the start.
+template <class T>
+T replayLogTarget(const Scene& scene, const Path& path, const T* u);
+
+// The camera subpath's last ray and vertex, the light subpath's last vertex.
+template <class T>
+PathRay<T> replayScatter(const Scene& scene, const Path& path, Side side, int index,
+                         const PathVertex<T>& vertex, const T& u0, const T& u1) {
+  const TracedVertex& traced = (side == Side::kCamera ? path.camera
+                                                      : path.light)[static_cast<std::size_t>(index)];
+  return scatterFrom<T>(scene, vertex, traced.id, traced.lobe, u0, u1, side);
+}
+
+// The technique's last step: joins what the subpaths have arrived at. `u` are the light's two direct
+// coordinates where s = 1. Vertices that the technique lacks are not looked at.
+template <class T>
+T joinedLogTarget(const Scene& scene, const Path& path, const PathRay<T>& cameraRay,
+                  const PathVertex<T>& camera, const PathVertex<T>& light, const T* u) {
+  const auto [s, t] = path.technique;
+  const PrimitiveId cameraId = path.camera[static_cast<std::size_t>(t) - 1].id;
+  const PrimitiveId lightId = s >= 2 ? path.light[static_cast<std::size_t>(s) - 1].id : PrimitiveId{};
+  constexpr auto kBoth = Techniques::kBidirectional;
+  Contribution<T> c;
+  if (s == 0) {
+    c = path.escaped ? hitEnvironment<T>(scene, cameraRay, t, kBoth)
+                     : hitAreaLight<T>(scene, camera, cameraRay.direction, path.lightIndex, t, kBoth);
+  } else if (s == 1) {
+    DirectLight<T> direct;
+    c = connectToLight<T>(scene, camera, cameraId, path.lightIndex, path.lightPrimitive, u[0], u[1],
+                          kBoth, direct);
+  } else if (t == 1) {
+    c = connectToCamera<T>(scene, light, lightId);
+  } else {
+    c = connectVertices<T>(scene, camera, cameraId, light, lightId);
+  }
+  return log(luminance(c.value) * c.weight);
+}
+
+template <class T>
+T replayLogTarget(const Scene& scene, const Path& path, const T* u) {
+  const Technique& technique = path.technique;
+  PathRay<T> ray{};
+  PathVertex<T> camera{}, light{};
+  if (technique.t >= 2) {
+    ray = startCamera<T>(scene, u[0], u[1]);
+    for (int i = 1; i < technique.t; ++i) {
+      if (i > 1) {
+        const T* v = u + technique.cameraCoordinate(i - 1);
+        ray = replayScatter<T>(scene, path, Side::kCamera, i - 1, camera, v[0], v[1]);
+      }
+      if (i == technique.t - 1 && path.escaped) break;
+      camera = arriveAt<T>(scene, ray, path.camera[static_cast<std::size_t>(i)].id);
+    }
+  }
+  const T* lightU = u + technique.lightOffset();
+  if (technique.s >= 2) {
+    PathRay<T> emitted = startLight<T>(scene, path.lightIndex, path.lightPrimitive, lightU[0],
+                                       lightU[1], lightU[2], lightU[3]);
+    for (int i = 1; i < technique.s; ++i) {
+      if (i > 1) {
+        const T* v = u + technique.lightCoordinate(i - 1);
+        emitted = replayScatter<T>(scene, path, Side::kLight, i - 1, light, v[0], v[1]);
+      }
+      light = arriveAt<T>(scene, emitted, path.light[static_cast<std::size_t>(i)].id);
+    }
+  }
+  return joinedLogTarget<T>(scene, path, ray, camera, light, lightU);
+}
+
+}  // namespace h2mc

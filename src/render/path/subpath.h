@@ -1,0 +1,162 @@
+// The local functions of which every path is made, over any scalar type: leave the camera or a
+// light, arrive at a surface, scatter. With T = float they trace; with a derivative type they give
+// the derivatives of what was traced, on the frozen topology.
+//
+// MIS weights follow the recursive form of Georgiev 2012 ("Implementing Vertex Connection and
+// Merging", eqs. 31-40) for the power heuristic with exponent 2. Where the report squares every
+// density, `vcm` and `vc` here are the square roots of its sums: their range stays that of the
+// densities themselves, so that float neither overflows nor loses small terms.
+#pragma once
+
+#include "render/bsdf/material.h"
+#include "render/geometry/surface.h"
+#include "render/scene/scene.h"
+
+namespace h2mc {
+
+// Which end of the path a subpath starts from.
+enum class Side { kCamera, kLight };
+
+// On its way from one vertex to the next.
+template <class T>
+struct PathRay {
+  Vec3<T> origin;
+  Vec3<T> direction;                // unit
+  Rgb<T> throughput;                // of the subpath, divided by the densities that made it
+  T vcm, vc;                        // root of d_VCM, d_VC
+  Vec3<Scalar<T>> originNormal{0};  // geometric normal there, zero where there is no surface
+  bool fromInfinity = false;        // left an infinite light: its distance is no density's business
+};
+
+// Where a subpath has arrived at a surface.
+template <class T>
+struct PathVertex {
+  SurfacePoint<T> point;
+  Vec3<T> wi;      // local direction to the previous vertex
+  T cosIn;         // |cos| of the same with the geometric normal
+  Rgb<T> throughput;
+  T vcm, vc;
+};
+
+// sqrt(a^2 + b^2) where both are >= 0. No derivative of the root at 0 is ever needed: zeros are
+// structural (delta lobes, delta lights) and decided by value.
+template <class T>
+T rootOfSquares(const T& a, const T& b) {
+  if (value(b) == 0) return a;
+  if (value(a) == 0) return b;
+  return sqrt(a * a + b * b);
+}
+
+inline const Material& materialAt(const Scene& scene, PrimitiveId id) {
+  return scene.materials[static_cast<std::size_t>(scene.shapes[id.shape].material)];
+}
+
+template <class T>
+PathRay<T> startCamera(const Scene& scene, const T& filmX, const T& filmY) {
+  PathRay<T> ray;
+  const Vec3<Scalar<T>> origin = plain<T>(scene.camera.position());
+  ray.origin = {T(origin.x), T(origin.y), T(origin.z)};
+  ray.direction = scene.camera.direction(filmX, filmY);
+  ray.throughput = Rgb<T>(T(1));
+  ray.vcm = T(1) / scene.camera.pdf(scene.camera.cosine(ray.direction));
+  ray.vc = T(0);
+  return ray;
+}
+
+// A ray from light number `light` with the discrete choice `primitive` made; u places it, v directs
+// it.
+template <class T>
+PathRay<T> startLight(const Scene& scene, int light, PrimitiveId primitive, const T& u0,
+                      const T& u1, const T& v0, const T& v1) {
+  using S = Scalar<T>;
+  const S pick = scene.lightPicker.probability(light);
+  return std::visit(
+      [&](const auto& l) {
+        const EmittedRay<T> e =
+            l.template sampleEmission<T>(scene.lightContext(), primitive, u0, u1, v0, v1);
+        PathRay<T> ray;
+        ray.origin = e.origin;
+        ray.direction = e.direction;
+        ray.originNormal = value3(e.normal);
+        const T inverse = T(1) / (e.emissionPdf * pick);
+        ray.throughput = e.power * inverse;
+        ray.vcm = e.directPdf / e.emissionPdf;
+        ray.vc = l.isDelta() ? T(0) : e.cosLight * inverse;
+        ray.fromInfinity = l.isInfinite();
+        return ray;
+      },
+      scene.lights[static_cast<std::size_t>(light)]);
+}
+
+template <class T>
+PathVertex<T> arriveAt(const Scene& scene, const PathRay<T>& ray, PrimitiveId id) {
+  PathVertex<T> vertex;
+  vertex.point = intersectPrimitive(scene.shapes, id, ray.origin, ray.direction);
+  const Vec3<T> back = -ray.direction;
+  vertex.wi = vertex.point.shading.toLocal(back);
+  vertex.cosIn = abs(dot(vertex.point.ng, back));
+  vertex.throughput = ray.throughput;
+  const T inverse = T(1) / vertex.cosIn;
+  vertex.vcm = ray.vcm * inverse;
+  if (!ray.fromInfinity) vertex.vcm = vertex.vcm * distance2(vertex.point.p, ray.origin);
+  vertex.vc = ray.vc * inverse;
+  return vertex;
+}
+
+// Continues from a vertex through `lobe` in the direction that (u0, u1) draw. A throughput of zero
+// means that nothing goes that way.
+template <class T>
+PathRay<T> scatterFrom(const Scene& scene, const PathVertex<T>& vertex, PrimitiveId id,
+                       LobeId lobe, const T& u0, const T& u1, Side side) {
+  const Material& material = materialAt(scene, id);
+  const Vec2<T>& uv = vertex.point.uv;
+  PathRay<T> ray;
+  ray.origin = vertex.point.p;
+  ray.originNormal = value3(vertex.point.ng);
+  if (isDelta(scene.bsdfs, material, lobe)) {
+    const DeltaSample<T> sample = sampleDelta<T>(scene.bsdfs, material, uv, vertex.wi, lobe);
+    ray.direction = vertex.point.shading.toWorld(sample.wo);
+    const T cosOut = abs(dot(vertex.point.ng, ray.direction));
+    const T inverse = T(1) / sample.probability;
+    if (side == Side::kCamera) {
+      ray.throughput = vertex.throughput * sample.radiance * inverse;
+    } else {
+      // Shading normals make scattering non-symmetric [Veach 1997, section 5.3].
+      const T correction = abs(vertex.wi.z) * cosOut / (vertex.cosIn * abs(sample.wo.z));
+      ray.throughput = vertex.throughput * sample.importance * (inverse * correction);
+    }
+    ray.vcm = T(0);
+    ray.vc = vertex.vc * cosOut;
+    return ray;
+  }
+  const Vec3<T> wo = sampleMaterial<T>(scene.bsdfs, material, uv, vertex.wi, lobe, u0, u1);
+  ray.direction = vertex.point.shading.toWorld(wo);
+  const T cosOut = abs(dot(vertex.point.ng, ray.direction));
+  T pdf, reverse, factor;
+  Rgb<T> scattered;
+  if (side == Side::kCamera) {
+    const BsdfValue<T> e = evaluateMaterial<T>(scene.bsdfs, material, uv, vertex.wi, wo);
+    pdf = e.pdf;
+    reverse = e.pdfReverse;
+    factor = T(1) / pdf;
+    scattered = e.value;
+  } else {
+    const BsdfValue<T> e = evaluateMaterial<T>(scene.bsdfs, material, uv, wo, vertex.wi);
+    pdf = e.pdfReverse;
+    reverse = e.pdf;
+    factor = cosOut / (vertex.cosIn * pdf);
+    scattered = e.value;
+  }
+  if (!(value(pdf) > 0)) {
+    ray.throughput = Rgb<T>(T(0));
+    ray.vcm = ray.vc = T(0);
+    return ray;
+  }
+  const T inverse = T(1) / pdf;
+  ray.throughput = vertex.throughput * scattered * factor;
+  ray.vcm = inverse;
+  ray.vc = cosOut * inverse * rootOfSquares(vertex.vc * reverse, vertex.vcm);
+  return ray;
+}
+
+}  // namespace h2mc
