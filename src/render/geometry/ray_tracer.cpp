@@ -21,13 +21,13 @@
 namespace h2mc {
 namespace {
 
-// How far rays start off a surface, relative to the largest coordinate of their origin: 32 units in
+// How far rays start off a surface, relative to the largest coordinate of their origin: 16 units in
 // the last place, when a point on a surface is off by half of one [after Waechter and Binder 2019,
 // "A Fast and Robust Method for Avoiding Self-Intersection", but without absolute lengths].
-constexpr float kRelativeOffset = 0x1p-19f;
+constexpr float kRelativeOffset = 0x1p-20f;
 // The same relative to the largest triangle whose plane is not parallel to a coordinate plane:
 // Embree finds such a plane only to a few units in the last place of its corners.
-constexpr float kTriangleOffset = 0x1p-21f;
+constexpr float kTriangleOffset = 0x1p-22f;
 // The share of a segment's length by which shadow rays fall short of its end, besides the offset.
 constexpr float kShortening = 0x1p-20f;
 
