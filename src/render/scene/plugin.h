@@ -13,7 +13,8 @@ enum class ParameterType {
   kBoolean,
   kInteger,
   kNumber,     // float
-  kString,     // one of `choices` where those are given
+  kString,     // one of `choices` where those are given; without choices but with a default, a number
+               // may stand for it (intIOR: "bk7" or 1.5)
   kColor,      // rgb, spectrum or a single number
   kTexture,    // a nested texture or a colour
   kPoint,

@@ -1,7 +1,11 @@
 // A scene as the integrators see it: read, checked, in world space, ready to trace.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,6 +36,11 @@ struct Scene {
   std::vector<Light> lights;
   int environment = -1;  // index of the constant or envmap light, or -1
   OptionSet integrator;  // what the scene asks for; integrator() is empty when it does not say
+  // What the scene says of rendering in any integrator's words, by our options' names (maxDepth,
+  // sigma, ...): for an integrator that is not the scene's own; what it does not have is not for it.
+  std::map<std::string, std::string, std::less<>> options;
+  int samplesPerPixel = 0;            // the sampler's sampleCount; 0 when it does not say
+  std::optional<std::uint64_t> seed;  // where the scene gives one
   std::vector<std::string> notes;  // accepted and not used, left out because nothing needs it
 
   // Made by finish():
@@ -45,5 +54,8 @@ struct Scene {
   // shapes, materials and lights are in place. Throws std::runtime_error if Embree fails.
   void finish();
 };
+
+// A sphere around all shapes.
+SceneBounds boundsOf(std::span<const Shape> shapes);
 
 }  // namespace h2mc

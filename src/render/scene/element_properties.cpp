@@ -1,0 +1,400 @@
+#include "render/scene/element_properties.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "render/scene/spectrum.h"
+#include "render/scene/transform_reader.h"
+#include "render/scene/value_text.h"
+
+namespace h2mc {
+namespace {
+
+bool isOneOf(std::string_view name, std::initializer_list<std::string_view> names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool isColorElement(std::string_view name) {
+  return isOneOf(name, {"rgb", "srgb", "spectrum", "blackbody", "float", "integer"});
+}
+
+// Which elements may give a parameter.
+bool accepts(const Parameter& parameter, std::string_view element) {
+  switch (parameter.type) {
+    case ParameterType::kBoolean: return element == "boolean";
+    case ParameterType::kInteger: return isOneOf(element, {"integer", "long"});
+    case ParameterType::kNumber: return isOneOf(element, {"float", "integer"});
+    case ParameterType::kString:
+      // A word that stands for a number, as in intIOR: the number itself will do.
+      return element == "string" || (parameter.choices.empty() && !parameter.fallback.empty() &&
+                                     isOneOf(element, {"float", "integer"}));
+    case ParameterType::kColor: return isColorElement(element);
+    case ParameterType::kTexture: return isColorElement(element) || element == "texture";
+    case ParameterType::kPoint:
+    case ParameterType::kVector: return isOneOf(element, {"point", "vector"});
+    case ParameterType::kTransform: return isOneOf(element, {"transform", "animation"});
+  }
+  return false;
+}
+
+// How one writes a parameter, and what it is called.
+std::pair<std::string, std::string> spelling(const Parameter& p) {
+  const std::string name = " name=\"" + std::string(p.name) + "\"";
+  switch (p.type) {
+    case ParameterType::kBoolean: return {"a boolean", "<boolean" + name + " value=\"true\"/>"};
+    case ParameterType::kInteger: return {"an integer", "<integer" + name + " value=\"...\"/>"};
+    case ParameterType::kNumber: return {"a number", "<float" + name + " value=\"...\"/>"};
+    case ParameterType::kString: return {"a string", "<string" + name + " value=\"...\"/>"};
+    case ParameterType::kColor: return {"a colour", "<rgb" + name + " value=\"r, g, b\"/>"};
+    case ParameterType::kTexture:
+      return {"a colour or texture",
+              "<rgb" + name + " value=\"r, g, b\"/> or <texture" + name + " type=\"...\">"};
+    case ParameterType::kPoint: return {"a point", "<point" + name + " x=\"\" y=\"\" z=\"\"/>"};
+    case ParameterType::kVector: return {"a vector", "<vector" + name + " x=\"\" y=\"\" z=\"\"/>"};
+    case ParameterType::kTransform: return {"a transform", "<transform" + name + ">"};
+  }
+  return {};
+}
+
+Names splitChoices(std::string_view choices) {
+  Names names;
+  while (!choices.empty()) {
+    const std::size_t bar = choices.find('|');
+    names.emplace_back(choices.substr(0, bar));
+    choices = bar == std::string_view::npos ? "" : choices.substr(bar + 1);
+  }
+  return names;
+}
+
+bool matches(const Parameter& parameter, std::string_view written) {
+  return written == parameter.name || written == snakeCase(parameter.name) ||
+         (!parameter.otherName.empty() &&
+          (written == parameter.otherName || written == snakeCase(parameter.otherName)));
+}
+
+std::string checkedChoice(const Parameter& parameter, const std::string& value) {
+  if (parameter.choices.empty()) return value;
+  const std::string word = lowerCase(trimmed(value));
+  const Names choices = splitChoices(parameter.choices);
+  for (const std::string& choice : choices)
+    if (lowerCase(choice) == word) return word;
+  throw ValueError("\"" + value + "\" is not a value of \"" + std::string(parameter.name) +
+                   "\"\nexpected one of the choices; " + suggestion(value, choices));
+}
+
+int checkedInteger(std::string_view text) {
+  const long long value = parseInteger(text);
+  if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max())
+    throw ValueError("\"" + std::string(text) + "\" is too large an integer");
+  return static_cast<int>(value);
+}
+
+}  // namespace
+
+bool isParameterElement(const XmlElement& element) {
+  return isOneOf(element.name, {"boolean", "integer", "long", "float", "string", "rgb", "srgb",
+                                "spectrum", "blackbody", "point", "vector", "transform",
+                                "animation"});
+}
+
+bool isReference(const XmlElement& element) {
+  return element.name == "ref" || element.name == "reference";
+}
+
+Rgbf readColor(const SceneDocument& document, const XmlElement& element) {
+  std::string_view attribute = "value";
+  try {
+    if (element.name == "blackbody") {
+      element.allowAttributes({"name", "temperature", "scale", "multiplier"});
+      attribute = "temperature";
+      std::string_view text = trimmed(element.require("temperature"));
+      if (!text.empty() && (text.back() == 'K' || text.back() == 'k')) text.remove_suffix(1);
+      const double temperature = parseNumber(text);
+      if (!(temperature > 0)) throw ValueError("a temperature is positive");
+      double scale = 1;
+      for (std::string_view name : {"scale", "multiplier"}) {
+        if (!element.find(name)) continue;
+        attribute = name;
+        scale *= parseNumber(element.attribute(name));
+      }
+      if (scale < 0) throw ValueError("a scale must not be negative");
+      const Rgbf c = blackbodyToRgb(temperature) * static_cast<float>(scale);
+      return c;
+    }
+    if (element.name == "spectrum" && element.find("filename")) {
+      element.allowAttributes({"name", "filename"});
+      attribute = "filename";
+      std::string text, line;
+      // Lines "wavelength value"; # starts a comment.
+      const std::string content = readTextFile(resolveFile(document, element, "filename"));
+      for (std::size_t at = 0; at < content.size();) {
+        const std::size_t end = std::min(content.find('\n', at), content.size());
+        line = content.substr(at, std::min(end, content.find('#', at)) - at);
+        at = end + 1;
+        const auto parts = splitList(line);
+        if (parts.empty()) continue;
+        if (parts.size() != 2)
+          throw ValueError("a line of the spectrum's file is not \"wavelength value\"");
+        text += std::string(parts[0]) + ":" + std::string(parts[1]) + " ";
+      }
+      if (text.empty()) throw ValueError("the spectrum's file is empty");
+      return parseSpectrum(text);
+    }
+    element.allowAttributes({"name", "value", "intent"});
+    const std::string& text = element.require("value");
+    if (element.name == "spectrum") return parseSpectrum(text);
+    if (element.name == "rgb" || element.name == "srgb") return parseRgb(text, element.name == "srgb");
+    const double grey = parseNumber(text);
+    if (grey < 0) throw ValueError("a colour must not be negative");
+    return Rgbf(static_cast<float>(grey));
+  } catch (const ValueError& e) {
+    throw sourceError(element.place(attribute), e.what(),
+                      "expected a colour: value=\"r, g, b\", value=\"grey\", value=\"#rrggbb\" or, "
+                      "in a <spectrum>, value=\"wavelength:value, ...\"");
+  }
+}
+
+ElementProperties::ElementProperties(ReaderContext& context, const XmlElement& element,
+                                     ElementTable table)
+    : context_(context), element_(element), table_(std::move(table)) {
+  element.allowAttributes({"type", "id", "name"});
+  type_ = lowerCase(element.attribute("type"));
+  for (const XmlElement& child : element.children) {
+    const std::string written = child.attribute("name");
+    const bool listed = std::find(table_.objects.begin(), table_.objects.end(), child.name) !=
+                        table_.objects.end();
+    if (isReference(child)) {
+      child.allowAttributes({"name", "id"});
+      const XmlElement& target = context.resolve(child);
+      if (target.name == "texture") {
+        readParameter(child);
+      } else if (target.name == "bsdf" && table_.nestedBsdfs > 0) {
+        nested_.push_back(&child);
+      } else if (std::find(table_.objects.begin(), table_.objects.end(), target.name) ==
+                 table_.objects.end()) {
+        throw sourceError(child.place("id"), "a reference to a " + target.name + " inside " +
+                                                 description());
+      }
+    } else if (isParameterElement(child) || child.name == "texture") {
+      readParameter(child);
+    } else if (child.name == "bsdf" && table_.nestedBsdfs > 0) {
+      nested_.push_back(&child);
+    } else if (!listed) {
+      Names names = {"boolean", "float", "integer", "string", "rgb", "spectrum", "point", "vector",
+                     "transform", "texture", "ref"};
+      if (table_.nestedBsdfs > 0) names.push_back("bsdf");
+      names.insert(names.end(), table_.objects.begin(), table_.objects.end());
+      throw sourceError(child.place(), "<" + child.name + "> inside " + description(),
+                        "expected an element that belongs here; " + suggestion(child.name, names));
+    }
+  }
+  if (nestedBsdfCount() > table_.nestedBsdfs)
+    throw sourceError(nested_[static_cast<std::size_t>(table_.nestedBsdfs)]->place(),
+                      description() + " takes at most " + std::to_string(table_.nestedBsdfs) +
+                          " bsdf" + (table_.nestedBsdfs == 1 ? "" : "s"));
+}
+
+std::string ElementProperties::description() const {
+  return type_.empty() ? table_.kind : table_.kind + " \"" + type_ + "\"";
+}
+
+Names ElementProperties::parameterNames() const {
+  // In the file's own spelling: snake_case where its version says so.
+  const std::string version = context_.document.root.attribute("version");
+  const bool snake = !version.empty() && version[0] >= '2' && version[0] <= '9';
+  Names names;
+  for (const Parameter& p : table_.parameters)
+    names.push_back(snake ? snakeCase(p.name) : std::string(p.name));
+  return names;
+}
+
+const Parameter* ElementProperties::match(std::string_view written) const {
+  for (const Parameter& p : table_.parameters)
+    if (matches(p, written)) return &p;
+  return nullptr;
+}
+
+void ElementProperties::readParameter(const XmlElement& child) {
+  if (!child.find("name"))
+    throw sourceError(child.place(), "<" + child.name + "> inside " + description() +
+                                         " has no name",
+                      "expected name=\"...\"; available: " + joined(parameterNames()));
+  const std::string written = child.attribute("name");
+  const Parameter* parameter = match(written);
+  if (!parameter) {
+    if (table_.acceptUnknown) {
+      context_.note("accepted and not used: parameter \"" + written + "\" of " + description());
+      return;
+    }
+    throw sourceError(child.place("name"),
+                      "unknown parameter \"" + written + "\" of " + description(),
+                      "expected a parameter that it has; " + suggestion(written, parameterNames()));
+  }
+  for (const auto& [other, element] : given_)
+    if (other == parameter)
+      throw sourceError(child.place("name"),
+                        "parameter \"" + written + "\" of " + description() + " is given twice",
+                        "first at " + describe(element->place("name")));
+  if (parameter->ignored) {
+    context_.note("accepted and not used: parameter \"" + std::string(parameter->name) + "\" of " +
+                  description());
+  } else {
+    checkValue(*parameter, child);
+  }
+  given_.emplace_back(parameter, &child);
+}
+
+void ElementProperties::checkValue(const Parameter& parameter, const XmlElement& child) const {
+  const XmlElement& target = context_.resolve(child);
+  const auto [what, example] = spelling(parameter);
+  if (!accepts(parameter, target.name))
+    throw sourceError(child.place(),
+                      "parameter \"" + std::string(parameter.name) + "\" of " + description() +
+                          " is " + what + ", not a <" + target.name + ">",
+                      "expected " + example);
+  if (target.name == "texture") return;
+  if (!child.children.empty() && parameter.type != ParameterType::kTransform)
+    throw sourceError(child.children[0].place(),
+                      "<" + child.children[0].name + "> inside <" + child.name + ">");
+  try {
+    switch (parameter.type) {
+      case ParameterType::kBoolean:
+      case ParameterType::kInteger:
+      case ParameterType::kNumber:
+      case ParameterType::kString: {
+        child.allowAttributes({"name", "value"});
+        const std::string& value = child.require("value");
+        if (parameter.type == ParameterType::kBoolean) parseBoolean(value);
+        if (parameter.type == ParameterType::kInteger) checkedInteger(value);
+        if (parameter.type == ParameterType::kNumber || child.name == "float") parseNumber(value);
+        if (parameter.type == ParameterType::kString) checkedChoice(parameter, value);
+        break;
+      }
+      case ParameterType::kColor:
+      case ParameterType::kTexture: readColor(context_.document, child); break;
+      case ParameterType::kPoint:
+      case ParameterType::kVector:
+        child.allowAttributes({"name", "x", "y", "z", "value"});
+        if (!child.find("value"))
+          for (std::string_view axis : {"x", "y", "z"})
+            if (!child.find(axis) && !(child.find("x") || child.find("y") || child.find("z")))
+              child.require(axis);
+        readVector(child);
+        break;
+      case ParameterType::kTransform:
+        if (child.name == "animation") {
+          readAnimation(child);
+        } else {
+          readTransform(child);
+        }
+        break;
+    }
+  } catch (const ValueError& e) {
+    const std::string message = e.what();
+    const std::size_t line = message.find('\n');
+    throw sourceError(child.place("value"), message.substr(0, line),
+                      line == std::string::npos ? "expected " + example : message.substr(line + 1));
+  }
+}
+
+const Parameter& ElementProperties::find(std::string_view name) const {
+  for (const Parameter& p : table_.parameters)
+    if (p.name == name) return p;
+  throw std::logic_error("the table of " + description() + " has no parameter \"" +
+                         std::string(name) + "\"");
+}
+
+const XmlElement* ElementProperties::source(std::string_view name) const {
+  const Parameter* parameter = &find(name);
+  for (const auto& [p, element] : given_)
+    if (p == parameter) return element;
+  return nullptr;
+}
+
+bool ElementProperties::given(std::string_view name) const { return source(name) != nullptr; }
+
+// Values in the file were checked when they were read; what fails here is the default.
+template <class Parse>
+auto ElementProperties::parse(std::string_view name, Parse parse) const {
+  const XmlElement* child = source(name);
+  if (!child && find(name).fallback.empty())
+    fail(name, description() + " has no \"" + std::string(name) + "\"",
+         "expected " + spelling(find(name)).second);
+  try {
+    return parse(child ? child->attribute("value") : std::string(find(name).fallback));
+  } catch (const ValueError& e) {
+    fail(name, e.what());
+    throw;  // not reached
+  }
+}
+
+bool ElementProperties::boolean(std::string_view name) const { return parse(name, parseBoolean); }
+int ElementProperties::integer(std::string_view name) const { return parse(name, checkedInteger); }
+float ElementProperties::number(std::string_view name) const {
+  return static_cast<float>(parse(name, parseNumber));
+}
+
+std::string ElementProperties::string(std::string_view name) const {
+  const Parameter& parameter = find(name);
+  if (!given(name) && parameter.choices.empty()) return std::string(parameter.fallback);
+  return parse(name, [&](const std::string& text) { return checkedChoice(parameter, text); });
+}
+
+Rgbf ElementProperties::color(std::string_view name) const {
+  if (const XmlElement* child = source(name)) {
+    if (context_.resolve(*child).name == "texture") fail(name, "expected a colour, not a texture");
+    return readColor(context_.document, *child);
+  }
+  return parse(name, parseSpectrum);
+}
+
+TexturePtr ElementProperties::texture(std::string_view name) const {
+  const XmlElement* child = source(name);
+  if (child && context_.resolve(*child).name == "texture") return context_.texture(*child);
+  return constantTexture(color(name));
+}
+
+Vec3f ElementProperties::vector(std::string_view name) const {
+  if (const XmlElement* child = source(name)) return Vec3f(readVector(*child));
+  return parse(name, [](const std::string& text) {
+    const std::vector<double> v = parseNumbers(text);
+    if (v.size() != 3) throw ValueError("expected 3 numbers");
+    return Vec3f(static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]));
+  });
+}
+
+Mat4 ElementProperties::transform(std::string_view name) const {
+  const XmlElement* child = source(name);
+  if (!child) return Mat4(1);
+  return child->name == "animation" ? readAnimation(*child) : readTransform(*child);
+}
+
+std::string ElementProperties::file(std::string_view name) const {
+  const XmlElement* child = source(name);
+  if (!child)
+    fail(name, description() + " has no \"" + std::string(name) + "\"",
+         "expected " + spelling(find(name)).second);
+  return resolveFile(context_.document, *child, "value");
+}
+
+int ElementProperties::nestedBsdf(int index) const {
+  return context_.material(*nested_.at(static_cast<std::size_t>(index)));
+}
+
+const Material& ElementProperties::material(int index) const {
+  return context_.scene.materials.at(static_cast<std::size_t>(index));
+}
+
+void ElementProperties::fail(std::string_view name, const std::string& message) const {
+  fail(name, message, "");
+}
+
+void ElementProperties::fail(std::string_view name, const std::string& message,
+                             const std::string& hint) const {
+  const Parameter* parameter = match(name);
+  for (const auto& [p, child] : given_)
+    if (p == parameter) throw sourceError(child->place("value"), message, hint);
+  throw sourceError(element_.place(), message, hint);
+}
+
+}  // namespace h2mc

@@ -1,0 +1,28 @@
+// The readers of a scene file's parts.
+#pragma once
+
+#include "render/scene/reader_context.h"
+#include "render/scene/scene_reader.h"
+
+namespace h2mc {
+
+// Adds the shape with its material and its area light.
+void readShape(ReaderContext& context, const XmlElement& element);
+
+// Adds a light that stands alone.
+void readLight(ReaderContext& context, const XmlElement& element);
+
+// Makes the light that an element describes and keeps it if it emits; its index, or -1.
+// `shape`: the shape it is on, -1 for none.
+int addLight(ReaderContext& context, const XmlElement& element, int shape);
+
+// Sets the camera, the film and samplesPerPixel.
+void readSensor(ReaderContext& context, const XmlElement& element, const ReadOptions& options);
+
+// Set the integrator, its options and the seed; the <dpt> block wins over an <integrator>.
+void readIntegrator(ReaderContext& context, const XmlElement& element,
+                    std::span<const IntegratorPlugin> integrators);
+void readDptBlock(ReaderContext& context, const XmlElement& element,
+                  std::span<const IntegratorPlugin> integrators);
+
+}  // namespace h2mc

@@ -1,0 +1,63 @@
+#include "render/scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/geometry/ray_tracer.h"
+
+namespace h2mc {
+namespace {
+
+struct Box {
+  glm::dvec3 low{INFINITY}, high{-INFINITY};
+
+  void add(const glm::dvec3& p) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  void add(const TriangleMesh& mesh) {
+    for (const Vec3f& p : mesh.positions) add(glm::dvec3(p));
+  }
+  void add(const Sphere& sphere) {
+    add(glm::dvec3(sphere.center) - glm::dvec3(sphere.radius));
+    add(glm::dvec3(sphere.center) + glm::dvec3(sphere.radius));
+  }
+  void add(const Disk& disk) {
+    const glm::dvec3 x(disk.axisX), y(disk.axisY);
+    const glm::dvec3 extent = glm::sqrt(x * x + y * y);
+    add(glm::dvec3(disk.center) - extent);
+    add(glm::dvec3(disk.center) + extent);
+  }
+};
+
+}  // namespace
+
+Scene::Scene() = default;
+Scene::~Scene() = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+
+SceneBounds boundsOf(std::span<const Shape> shapes) {
+  Box box;
+  for (const Shape& shape : shapes)
+    std::visit([&](const auto& geometry) { box.add(geometry); }, shape.geometry);
+  SceneBounds bounds;
+  if (!(box.low.x <= box.high.x)) return bounds;
+  bounds.center = Vec3f(0.5 * (box.low + box.high));
+  // A little more, so that rounding leaves no point outside.
+  const double radius = 0.5 * glm::length(box.high - box.low) * (1 + 1e-5);
+  bounds.radius = std::max(static_cast<float>(radius), 1e-6f);
+  return bounds;
+}
+
+void Scene::finish() {
+  bounds = boundsOf(shapes);
+  std::vector<double> powers;
+  for (const Light& light : lights)
+    powers.push_back(static_cast<double>(
+        std::visit([&](const auto& l) { return l.power(bounds); }, light)));
+  lightPicker = LightPicker(powers);
+  tracer = std::make_unique<RayTracer>(shapes);
+}
+
+}  // namespace h2mc

@@ -1,0 +1,240 @@
+#include "render/scene/scene_document.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "render/scene/suggestion.h"
+
+namespace h2mc {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string folderOf(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? "" : path.substr(0, slash + 1);
+}
+
+bool identifierCharacter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+// Goes through the elements in the order in which they are written, as <default> asks for.
+class Loader {
+ public:
+  Loader(SceneDocument& document, const std::map<std::string, std::string>& defines)
+      : document_(document), values_(defines.begin(), defines.end()) {}
+
+  XmlElement load(const std::string& path, const SourcePlace& from) {
+    auto file = std::make_shared<SourceFile>();
+    file->name = path;
+    file->folder = folderOf(path);
+    try {
+      file->text = readTextFile(path);
+    } catch (const std::exception& e) {
+      if (from.file)
+        throw sourceError(from, "cannot read \"" + path + "\": " + e.what());
+      throw SceneError(path + ": error: cannot read the scene: " + e.what());
+    }
+    XmlElement root = parseXml(file);
+    open_.push_back(path);
+    process(root);
+    open_.pop_back();
+    return root;
+  }
+
+  // After everything is read: each define must have been of use.
+  void checkDefines(const std::string& file,
+                    const std::map<std::string, std::string>& defines) const {
+    for (const auto& [name, value] : defines) {
+      if (used_.count(name) || defaults_.count(name)) continue;
+      Names names(used_.begin(), used_.end());
+      for (const std::string& d : defaults_)
+        if (!used_.count(d)) names.push_back(d);
+      throw SceneError(file + ": error: the scene has no $" + name + " (-D " + name + "=" + value +
+                       ")\n" + suggestion(name, names));
+    }
+  }
+
+ private:
+  void process(XmlElement& element) {
+    for (XmlAttribute& attribute : element.attributes) substitute(element, attribute);
+    std::vector<XmlElement> kept;
+    kept.reserve(element.children.size());
+    for (XmlElement& child : element.children) {
+      if (child.name == "default") {
+        readDefault(child);
+      } else if (child.name == "include") {
+        for (XmlAttribute& attribute : child.attributes) substitute(child, attribute);
+        include(child, kept);
+      } else if (child.name == "alias") {
+        for (XmlAttribute& attribute : child.attributes) substitute(child, attribute);
+        child.allowAttributes({"id", "as"});
+        document_.aliases[child.require("as")] = child.require("id");
+      } else if (child.name == "path") {
+        for (XmlAttribute& attribute : child.attributes) substitute(child, attribute);
+        child.allowAttributes({"value"});
+        std::string folder = child.require("value");
+        if (!folder.empty() && folder[0] != '/') folder = child.file->folder + folder;
+        if (!folder.empty() && folder.back() != '/') folder += '/';
+        document_.searchFolders.push_back(folder);
+      } else {
+        process(child);
+        kept.push_back(std::move(child));
+      }
+    }
+    element.children = std::move(kept);
+  }
+
+  void readDefault(XmlElement& element) {
+    element.allowAttributes({"name", "value"});
+    const std::string name = element.require("name");
+    if (name.empty() || !std::all_of(name.begin(), name.end(), identifierCharacter))
+      throw sourceError(element.place("name"), "\"" + name + "\" is not a name",
+                        "expected letters, digits and underscores");
+    element.require("value");
+    for (XmlAttribute& attribute : element.attributes)
+      if (attribute.name == "value") substitute(element, attribute);
+    defaults_.insert(name);
+    values_.emplace(name, element.attribute("value"));  // the first one counts, -D before all
+  }
+
+  void include(const XmlElement& element, std::vector<XmlElement>& siblings) {
+    constexpr std::size_t kDeepest = 16, kMost = 10000;
+    element.allowAttributes({"filename"});
+    element.require("filename");
+    const std::string path = resolveFile(document_, element, "filename");
+    for (const std::string& open : open_) {
+      std::error_code code;
+      if (fs::equivalent(open, path, code))
+        throw sourceError(element.place("filename"), "\"" + path + "\" includes itself");
+    }
+    if (open_.size() >= kDeepest)
+      throw sourceError(element.place("filename"),
+                        "files include each other more than " + std::to_string(kDeepest) + " deep");
+    if (++included_ > kMost)
+      throw sourceError(element.place("filename"),
+                        "more than " + std::to_string(kMost) + " files are included");
+    XmlElement root = load(path, element.place("filename"));
+    if (root.name == "scene") {
+      root.allowAttributes({"version"});
+      std::move(root.children.begin(), root.children.end(), std::back_inserter(siblings));
+    } else {
+      siblings.push_back(std::move(root));
+    }
+  }
+
+  // Replaces each $name; where the name runs into further letters, the longest one that is known.
+  void substitute(const XmlElement& element, XmlAttribute& attribute) {
+    std::size_t at = attribute.value.find('$');
+    if (at == std::string::npos) return;
+    std::string result;
+    const std::string& text = attribute.value;
+    std::size_t done = 0;
+    while (at != std::string::npos) {
+      std::size_t end = at + 1;
+      while (end < text.size() && identifierCharacter(text[end])) ++end;
+      const std::string whole = text.substr(at + 1, end - at - 1);
+      auto found = values_.end();
+      std::size_t length = whole.size();
+      for (; length > 0 && found == values_.end(); --length)
+        found = values_.find(whole.substr(0, length));
+      if (whole.empty() || found == values_.end()) {
+        Names names;
+        for (const auto& [name, value] : values_) names.push_back(name);
+        throw sourceError({element.file, attribute.valueOffset + at},
+                          "undefined name \"$" + whole + "\"",
+                          "expected a name given by <default> above or by -D name=value; " +
+                              suggestion(whole, names));
+      }
+      used_.insert(found->first);
+      result += text.substr(done, at - done) + found->second;
+      done = at + 1 + found->first.size();
+      at = text.find('$', done);
+    }
+    attribute.value = result + text.substr(done);
+  }
+
+  SceneDocument& document_;
+  std::map<std::string, std::string, std::less<>> values_;
+  std::set<std::string> used_, defaults_;
+  std::vector<std::string> open_;
+  std::size_t included_ = 0;
+};
+
+void collectIds(SceneDocument& document, const XmlElement& element) {
+  if (element.name != "ref" && element.name != "reference") {
+    if (const XmlAttribute* id = element.find("id")) {
+      const auto [entry, isNew] = document.ids.emplace(id->value, &element);
+      if (!isNew)
+        throw sourceError(element.place("id"), "the id \"" + id->value + "\" is given twice",
+                          "first at " + describe(entry->second->place("id")));
+    }
+  }
+  for (const XmlElement& child : element.children) collectIds(document, child);
+}
+
+}  // namespace
+
+const XmlElement* SceneDocument::find(std::string_view id) const {
+  for (int i = 0; i < 8; ++i) {  // aliases of aliases, but not in circles
+    if (const auto found = ids.find(id); found != ids.end()) return found->second;
+    const auto alias = aliases.find(id);
+    if (alias == aliases.end()) return nullptr;
+    id = alias->second;
+  }
+  return nullptr;
+}
+
+std::unique_ptr<SceneDocument> loadSceneDocument(
+    const std::string& file, const std::map<std::string, std::string>& defines) {
+  auto document = std::make_unique<SceneDocument>();
+  Loader loader(*document, defines);
+  document->root = loader.load(file, {});
+  if (document->root.name != "scene")
+    throw sourceError(document->root.place(),
+                      "the outermost element is <" + document->root.name + ">",
+                      "expected <scene version=\"0.6.0\">");
+  loader.checkDefines(file, defines);
+  collectIds(*document, document->root);
+  return document;
+}
+
+std::string resolveFile(const SceneDocument& document, const XmlElement& element,
+                        std::string_view attribute) {
+  const std::string name = element.attribute(attribute);
+  const auto missing = [&](const std::string& why, const std::string& hint) {
+    return sourceError(element.place(attribute), why, hint);
+  };
+  if (name.empty()) throw missing("the name of a file is missing", "");
+  std::vector<std::string> candidates;
+  if (name[0] == '/') {
+    candidates.push_back(name);
+  } else {
+    candidates.push_back(element.file->folder + name);
+    for (const std::string& folder : document.searchFolders) candidates.push_back(folder + name);
+    if (document.root.file) candidates.push_back(document.root.file->folder + name);
+  }
+  std::error_code code;
+  for (const std::string& path : candidates)
+    if (fs::exists(path, code) && !fs::is_directory(path, code)) return path;
+
+  // What there is beside it.
+  const std::string folder = folderOf(candidates[0]);
+  Names names;
+  fs::directory_iterator entries(folder.empty() ? "." : folder, code);
+  if (code)
+    throw missing("no such file: \"" + name + "\"",
+                  "there is no folder \"" + folder + "\" to look in");
+  for (; !code && entries != fs::directory_iterator() && names.size() < 20000;
+       entries.increment(code))
+    if (!entries->is_directory(code)) names.push_back(entries->path().filename().string());
+  std::sort(names.begin(), names.end());
+  const std::size_t slash = name.rfind('/');
+  throw missing("no such file: \"" + name + "\"",
+                "looked in \"" + (folder.empty() ? "." : folder) + "\"; " +
+                    suggestion(slash == std::string::npos ? name : name.substr(slash + 1), names));
+}
+
+}  // namespace h2mc

@@ -1,0 +1,25 @@
+// Reads a scene file: Mitsuba 0.6 XML, with the snake_case names of Mitsuba 2/3, and dpt's <dpt>.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+
+#include "render/scene/properties.h"
+#include "render/scene/scene.h"
+
+namespace h2mc {
+
+struct ReadOptions {
+  std::map<std::string, std::string> defines;     // $name -> value, over the file's <default>s
+  std::span<const IntegratorPlugin> integrators;  // those that <integrator> may name
+  // The image's size instead of the scene's; one alone keeps the aspect ratio. 0: the scene's.
+  int width = 0, height = 0;
+  double scale = 0;  // of width and height both; 0: none
+};
+
+// The scene, finished. Throws SceneError, whose message is complete, for whatever is wrong with the
+// scene; std::runtime_error if Embree fails.
+Scene readScene(const std::string& file, const ReadOptions& options);
+
+}  // namespace h2mc

@@ -1,0 +1,252 @@
+// The camera, its film and its sampler.
+#include <cmath>
+
+#include "render/scene/element_properties.h"
+#include "render/scene/part_readers.h"
+#include "render/scene/value_text.h"
+
+namespace h2mc {
+namespace {
+
+using enum ParameterType;
+
+constexpr Parameter ignoredParameter(std::string_view name, ParameterType type) {
+  return {name, type, "", "accepted and not used", "", "", true};
+}
+
+struct Entry {
+  std::string_view name;
+  std::span<const Parameter> parameters;
+};
+
+constexpr Parameter kPerspective[] = {
+    {"toWorld", kTransform, "", "from camera to world space"},
+    {"fov", kNumber, "0", "field of view, degrees"},
+    {"fovAxis", kString, "x", "the axis fov is measured along", "x|y|diagonal|smaller|larger"},
+    {"focalLength", kString, "50mm", "instead of fov: focal length for 35 mm film"},
+    {"nearClip", kNumber, "0.01", "nearest distance"},
+    {"farClip", kNumber, "10000", "farthest distance"},
+    {"shutterOpen", kNumber, "0", "time"},
+    {"shutterClose", kNumber, "0", "time"},
+    {"principalPointOffsetX", kNumber, "0", "must be 0"},
+    {"principalPointOffsetY", kNumber, "0", "must be 0"},
+    ignoredParameter("focusDistance", kNumber)};
+constexpr Entry kSensors[] = {{"perspective", kPerspective}};
+
+constexpr Parameter kFilm[] = {
+    {"width", kInteger, "768", "pixels"},
+    {"height", kInteger, "576", "pixels"},
+    {"cropOffsetX", kInteger, "0", "must be 0"},
+    {"cropOffsetY", kInteger, "0", "must be 0"},
+    {"cropWidth", kInteger, "0", "must be the width"},
+    {"cropHeight", kInteger, "0", "must be the height"},
+    ignoredParameter("banner", kBoolean),
+    ignoredParameter("fileFormat", kString),
+    ignoredParameter("pixelFormat", kString),
+    ignoredParameter("componentFormat", kString),
+    ignoredParameter("attachLog", kBoolean),
+    ignoredParameter("highQualityEdges", kBoolean),
+    ignoredParameter("filename", kString),
+    ignoredParameter("gamma", kNumber),
+    ignoredParameter("exposure", kNumber),
+    ignoredParameter("key", kNumber),
+    ignoredParameter("burn", kNumber),
+    ignoredParameter("tonemapMethod", kString),
+    ignoredParameter("sampleBorder", kBoolean)};
+constexpr Entry kFilms[] = {{"hdrfilm", kFilm}, {"ldrfilm", kFilm}};
+
+constexpr Parameter kBox[] = {{"radius", kNumber, "0.5", "pixels"}};
+constexpr Parameter kTent[] = {{"radius", kNumber, "1", "pixels"}};
+constexpr Parameter kGaussian[] = {{"stddev", kNumber, "0.5", "pixels"}};
+constexpr Parameter kMitchell[] = {{"B", kNumber, "0.33333333", ""}, {"C", kNumber, "0.33333333", ""}};
+constexpr Entry kFilters[] = {
+    {"box", kBox}, {"tent", kTent}, {"gaussian", kGaussian}, {"mitchell", kMitchell}};
+
+constexpr Parameter kSampler[] = {
+    {"sampleCount", kInteger, "0", "samples a pixel where the command line gives no budget"}};
+
+float positive(const Properties& p, std::string_view name) {
+  const float value = p.number(name);
+  if (!(value > 0)) p.fail(name, "\"" + std::string(name) + "\" must be positive");
+  return value;
+}
+
+Filter readFilter(ReaderContext& context, const XmlElement& element) {
+  const Entry& entry = findPlugin(kFilters, element, "reconstruction filter");
+  const ElementProperties p(context, element, {"rfilter", entry.parameters, 0, {}, false});
+  Filter filter;
+  if (entry.name == "box") {
+    filter.kind = Filter::Kind::kBox;
+    filter.radius = positive(p, "radius");
+  } else if (entry.name == "tent") {
+    filter.kind = Filter::Kind::kTent;
+    filter.radius = positive(p, "radius");
+  } else if (entry.name == "gaussian") {
+    filter.kind = Filter::Kind::kGaussian;
+    filter.stddev = positive(p, "stddev");
+    filter.radius = 4 * filter.stddev;
+  } else {
+    filter.kind = Filter::Kind::kMitchell;
+    filter.radius = 2;
+    filter.b = p.number("B");
+    filter.c = p.number("C");
+  }
+  constexpr float kWidest = 32;
+  if (filter.radius > kWidest)
+    throw sourceError(element.place(), "the filter is wider than " +
+                                           std::to_string(static_cast<int>(kWidest)) + " pixels");
+  return filter;
+}
+
+Filter defaultFilter() {
+  Filter filter;
+  filter.kind = Filter::Kind::kGaussian;
+  filter.radius = 4 * filter.stddev;
+  return filter;
+}
+
+// The image's size after what the command line asks for.
+void resize(FilmSettings& film, const ReadOptions& options, const ElementProperties* p) {
+  double width = film.width, height = film.height;
+  if (options.width > 0 && options.height > 0) {
+    width = options.width;
+    height = options.height;
+  } else if (options.width > 0) {
+    height = height * options.width / width;
+    width = options.width;
+  } else if (options.height > 0) {
+    width = width * options.height / height;
+    height = options.height;
+  }
+  if (options.scale > 0) {
+    width *= options.scale;
+    height *= options.scale;
+  }
+  width = std::max(1.0, std::round(width));
+  height = std::max(1.0, std::round(height));
+  constexpr double kLargest = 65536, kMostPixels = 1 << 28;
+  if (!(width <= kLargest && height <= kLargest && width * height <= kMostPixels)) {
+    const std::string message = "the image is too large";
+    if (p) p->fail(film.width >= film.height ? "width" : "height", message);
+    throw SceneError("error: " + message);
+  }
+  film.width = static_cast<int>(width);
+  film.height = static_cast<int>(height);
+}
+
+FilmSettings readFilm(ReaderContext& context, const XmlElement& element,
+                      const ReadOptions& options) {
+  const Entry& entry = findPlugin(kFilms, element, "film");
+  // Labels and metadata may have any names, "label[10, 10]".
+  XmlElement copy = element;
+  std::erase_if(copy.children, [&](const XmlElement& child) {
+    const std::string name = child.attribute("name");
+    const bool text = name.rfind("label[", 0) == 0 || name.rfind("metadata[", 0) == 0;
+    if (text) context.note("accepted and not used: labels and metadata of the film");
+    return text;
+  });
+  const ElementProperties p(context, copy, {"film", entry.parameters, 0, {"rfilter"}, false});
+  FilmSettings film;
+  film.width = p.integer("width");
+  film.height = p.integer("height");
+  for (std::string_view name : {"width", "height"})
+    if (p.integer(name) < 1) p.fail(name, "\"" + std::string(name) + "\" must be positive");
+  if (p.integer("cropOffsetX") != 0) p.fail("cropOffsetX", "cropping is not supported");
+  if (p.integer("cropOffsetY") != 0) p.fail("cropOffsetY", "cropping is not supported");
+  if (p.given("cropWidth") && p.integer("cropWidth") != film.width)
+    p.fail("cropWidth", "cropping is not supported");
+  if (p.given("cropHeight") && p.integer("cropHeight") != film.height)
+    p.fail("cropHeight", "cropping is not supported");
+  resize(film, options, &p);
+  film.filter = defaultFilter();
+  const XmlElement* filter = nullptr;
+  for (const XmlElement& child : copy.children) {
+    if (child.name != "rfilter") continue;
+    if (filter) throw sourceError(child.place(), "a second filter");
+    filter = &child;
+    film.filter = readFilter(context, child);
+  }
+  return film;
+}
+
+int readSampler(ReaderContext& context, const XmlElement& element) {
+  // The kind does not matter: every sampler's parameters are accepted.
+  const ElementProperties p(context, element, {"sampler", kSampler, 0, {}, true});
+  context.note("accepted and not used: the kind of sampler, \"" + p.type() + "\"");
+  const int count = p.integer("sampleCount");
+  if (count < 0) p.fail("sampleCount", "\"sampleCount\" must not be negative");
+  return count;
+}
+
+// Field of view of a 35 mm film's diagonal, degrees.
+float fovOfFocalLength(const ElementProperties& p) {
+  std::string text = p.string("focalLength");
+  if (text.size() > 2 && text.substr(text.size() - 2) == "mm") text.resize(text.size() - 2);
+  double length = 0;
+  try {
+    length = parseNumber(text);
+  } catch (const ValueError& e) {
+    p.fail("focalLength", e.what(), "expected a length like 50mm");
+  }
+  if (!(length > 0)) p.fail("focalLength", "a focal length is positive");
+  return static_cast<float>(glm::degrees(2 * std::atan(std::hypot(36.0, 24.0) / (2 * length))));
+}
+
+}  // namespace
+
+void readSensor(ReaderContext& context, const XmlElement& element, const ReadOptions& options) {
+  Scene& scene = context.scene;
+  const Entry& entry = findPlugin(kSensors, element, "sensor");
+  const ElementProperties p(context, element,
+                            {"sensor", entry.parameters, 0, {"film", "sampler"}, false});
+  const XmlElement* film = nullptr;
+  const XmlElement* sampler = nullptr;
+  for (const XmlElement& child : element.children) {
+    const XmlElement& target = context.resolve(child);
+    const XmlElement** slot = target.name == "film"      ? &film
+                              : target.name == "sampler" ? &sampler
+                                                         : nullptr;
+    if (!slot) continue;
+    if (*slot) throw sourceError(child.place(), "a second " + target.name + " of the sensor");
+    *slot = &target;
+  }
+  if (film) {
+    scene.film = readFilm(context, *film, options);
+  } else {
+    scene.film.filter = defaultFilter();
+    resize(scene.film, options, nullptr);
+  }
+  if (sampler) scene.samplesPerPixel = readSampler(context, *sampler);
+
+  if (p.given("fov") && p.given("focalLength"))
+    p.fail("focalLength", "the sensor has both fov and focalLength", "expected one of them");
+  float fov = 0;
+  auto axis = Camera::FovAxis::kDiagonal;
+  if (p.given("fov")) {
+    fov = p.number("fov");
+    if (!(fov > 0 && fov < 180)) p.fail("fov", "fov must lie between 0 and 180 degrees");
+    const std::string name = p.string("fovAxis");
+    axis = name == "x"          ? Camera::FovAxis::kX
+           : name == "y"        ? Camera::FovAxis::kY
+           : name == "diagonal" ? Camera::FovAxis::kDiagonal
+           : name == "smaller"  ? Camera::FovAxis::kSmaller
+                                : Camera::FovAxis::kLarger;
+  } else {
+    fov = fovOfFocalLength(p);
+  }
+  for (std::string_view name : {"principalPointOffsetX", "principalPointOffsetY"})
+    if (p.number(name) != 0) p.fail(name, "a shifted principal point is not supported");
+  const float aspect =
+      static_cast<float>(scene.film.width) / static_cast<float>(scene.film.height);
+  scene.camera = Camera(p.transform("toWorld"), fov, axis, aspect);
+  scene.camera.nearClip = positive(p, "nearClip");
+  scene.camera.farClip = positive(p, "farClip");
+  if (!(scene.camera.nearClip < scene.camera.farClip))
+    p.fail("farClip", "farClip must be larger than nearClip");
+  scene.camera.shutterOpen = p.number("shutterOpen");
+  scene.camera.shutterClose = p.number("shutterClose");
+  if (scene.camera.shutterClose < scene.camera.shutterOpen)
+    p.fail("shutterClose", "the shutter closes before it opens");
+}
+
+}  // namespace h2mc

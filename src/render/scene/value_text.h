@@ -1,0 +1,36 @@
+// Values as they are written in scene files: numbers, lists of numbers, colours.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/core/types.h"
+
+namespace h2mc {
+
+// A value that cannot be read; what() says why, without a place.
+class ValueError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+std::string_view trimmed(std::string_view text);
+
+// All throw ValueError. Numbers are finite, also as float where they become one.
+double parseNumber(std::string_view text);
+long long parseInteger(std::string_view text);
+bool parseBoolean(std::string_view text);  // true or false
+
+// Numbers between commas and white space; any count, possibly none.
+std::vector<double> parseNumbers(std::string_view text);
+std::vector<std::string_view> splitList(std::string_view text);
+
+// "r, g, b", one number for grey, or "#rrggbb". Decoded from sRGB on demand. Not negative.
+Rgbf parseRgb(std::string_view text, bool srgb);
+
+// A <spectrum>: one number, three numbers, or "wavelength:value, ..." in nanometres.
+Rgbf parseSpectrum(std::string_view text);
+
+}  // namespace h2mc

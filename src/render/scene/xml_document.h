@@ -1,0 +1,43 @@
+// A scene file as a tree of elements that know where they stand in the text. The only module that
+// knows the XML parser.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/scene/source_text.h"
+
+namespace h2mc {
+
+struct XmlAttribute {
+  std::string name, value;
+  std::size_t nameOffset = 0, valueOffset = 0;
+};
+
+struct XmlElement {
+  std::string name;
+  std::vector<XmlAttribute> attributes;
+  std::vector<XmlElement> children;
+  std::shared_ptr<const SourceFile> file;
+  std::size_t offset = 0;  // of the name
+
+  const XmlAttribute* find(std::string_view attribute) const;
+  // "" when it is not given.
+  std::string attribute(std::string_view name) const;
+  SourcePlace place() const { return {file, offset}; }
+  // Where the attribute's value stands; the element's place when it is not given.
+  SourcePlace place(std::string_view attribute) const;
+
+  // Throws SceneError unless every attribute is one of the names.
+  void allowAttributes(std::initializer_list<std::string_view> names) const;
+  // The value of an attribute that must be there; SceneError when it is not.
+  const std::string& require(std::string_view attribute) const;
+};
+
+// Parses the text; the result is the root element. Throws SceneError on malformed XML, text between
+// the elements, attributes given twice, elements nested too deeply.
+XmlElement parseXml(std::shared_ptr<const SourceFile> file);
+
+}  // namespace h2mc
