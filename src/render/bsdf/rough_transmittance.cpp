@@ -25,7 +25,9 @@ double throughFacet(const Microfacet& facets, double eta, const Vec& wi, const V
 // E over visible facets of (1 - F) G1(wo). With facet slopes (p, q) / alpha = their unit version,
 // p along wi, the visible normals have density G1(wi) / cos(wi) P22(p, q) (cos(wi) + alpha p sin(wi)).
 double RoughTransmittance::integrate(const Microfacet& facets, double eta, double cosine) {
-  static const auto nodes = gaussLegendre(48), halfNodes = gaussLegendre(24);
+  // Total reflection cuts the integrand off with a root: more nodes there.
+  static const auto few = gaussLegendre(48), half = gaussLegendre(24), many = gaussLegendre(96);
+  const auto &nodes = eta < 1 ? many : few, &halfNodes = eta < 1 ? few : half;
   const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)), a = facets.alpha;
   const Vec wi(sine, 0, cosine);
   double sum = 0;
@@ -83,8 +85,7 @@ RoughTransmittance::RoughTransmittance(const Microfacet& facets, double eta) {
   for (int i = 0; i < n; ++i) {
     const double rise = f[i + 1] - f[i];
     pieces_[static_cast<std::size_t>(i)] = {
-        float(f[i]), float(m[i]), float(3 * rise - 2 * m[i] - m[i + 1]),
-        float(m[i] + m[i + 1] - 2 * rise)};
+        f[i], m[i], 3 * rise - 2 * m[i] - m[i + 1], m[i] + m[i + 1] - 2 * rise};
   }
 
   // Diffuse light from inside: 2 int_0^1 T(c) c dc, with nodes gathered at the smooth interface's

@@ -39,7 +39,7 @@ class RoughTransmittance {
  private:
   static constexpr int kIntervals = 128;
   struct Piece {
-    float c0, c1, c2, c3;
+    double c0, c1, c2, c3;  // double: rounded, the pieces would no longer meet
   };
   std::vector<Piece> pieces_;
   double internalReflectance_ = 0;

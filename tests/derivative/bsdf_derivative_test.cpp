@@ -1,0 +1,189 @@
+// Derivatives of the BSDFs through the AD type: against finite differences, against the densities
+// (pdf = 1 / |Jacobian| of the sampling), and finite where float is strained.
+#include <gtest/gtest.h>
+
+#include "ad/finite_difference.h"
+#include "bsdf_cases.h"
+#include "render/core/random.h"
+
+namespace h2mc {
+namespace {
+
+using namespace test;
+
+template <class T>
+Vec3<T> spherical(const T& theta, const T& phi) {
+  T s, c, sp, cp;
+  ad::sincos(theta, s, c);
+  ad::sincos(phi, sp, cp);
+  return {s * cp, s * sp, c};
+}
+
+// Probability that (u0, u1) go to `lobe`: where chooseLobe changes its mind.
+template <class B>
+double lobeProbability(const B& b, const Vec2f& uv, const Vec3f& wi, float u0, float u1, int lobe) {
+  float low = 0, high = 1;
+  const int first = b.chooseLobe(uv, wi, u0, u1, 0);
+  for (int i = 0; i < 30; ++i) {
+    const float middle = 0.5f * (low + high);
+    (b.chooseLobe(uv, wi, u0, u1, middle) == first ? low : high) = middle;
+  }
+  return lobe == first ? high : 1 - double(high);
+}
+
+TEST(BsdfDerivative, DensityIsTheInverseJacobianOfSampling) {
+  using D = ad::Dual2<double, 2>;
+  Random random(30, 1, 0);
+  const Vec2f uv(0.3f, 0.4f);
+  int checked = 0;
+  for (const BsdfCase& c : glossyCases()) {
+    std::visit(
+        [&](const auto& b) {
+          for (int trial = 0; trial < 60; ++trial) {
+            const float side = c.entersBack && random.uniform() < 0.5f ? -1.0f : 1.0f;
+            const Vec3f wi = direction(side * (0.05f + 0.94f * random.uniform()),
+                                       6 * random.uniform());
+            const Vec3<double> in = glm::normalize(Vec3<double>(wi));
+            const float u0 = 0.01f + 0.97f * random.uniform(), u1 = random.uniform();
+            const int lobe = b.chooseLobe(uv, wi, u0, u1, random.uniform());
+            if (b.isDelta(lobe)) continue;
+            const Vec3<D> wo = b.template sample<D>(Vec2<D>(D(uv.x), D(uv.y)), {in.x, in.y, in.z},
+                                                    lobe, D::variable(u0, 0), D::variable(u1, 1));
+            const Vec3<double> out = value3(wo);
+            const double pdf =
+                b.template lobePdf<double>(Vec2<double>(uv), in, out, lobe);
+            if (!(pdf > 0)) continue;
+            EXPECT_NEAR(glm::length(out), 1, 1e-12);
+            const Vec3<double> d0(wo.x.gradient(0), wo.y.gradient(0), wo.z.gradient(0));
+            const Vec3<double> d1(wo.x.gradient(1), wo.y.gradient(1), wo.z.gradient(1));
+            const double jacobian = glm::length(glm::cross(d0, d1));
+            const double probability = lobeProbability(b, uv, wi, u0, u1, lobe);
+            // The probability comes from float comparisons.
+            EXPECT_NEAR(pdf * jacobian / probability, 1, 2e-6 / probability + 2e-5)
+                << c.name << ", lobe " << lobe << ", wi.z " << wi.z << ", u " << u0 << " " << u1;
+            ++checked;
+          }
+        },
+        c.bsdf);
+  }
+  EXPECT_GT(checked, 600);
+}
+
+// log of value, pdf and pdfReverse by the angles of both directions, where all are well away from
+// zero, from the horizon and from the critical angle.
+TEST(BsdfDerivative, MatchesFiniteDifferences) {
+  using D = ad::Dual2<double, 4>;
+  Random random(31, 1, 0);
+  const Vec2f uv(0.3f, 0.4f);
+  int checked = 0;
+  for (const BsdfCase& c : glossyCases()) {
+    std::visit(
+        [&](const auto& b) {
+          for (int trial = 0; trial < 12; ++trial) {
+            const float side = c.entersBack && random.uniform() < 0.5f ? -1.0f : 1.0f;
+            const Vec3f wi = direction(side * (0.2f + 0.75f * random.uniform()),
+                                       6 * random.uniform());
+            const float u0 = 0.05f + 0.85f * random.uniform(), u1 = random.uniform();
+            const int lobe = b.chooseLobe(uv, wi, u0, u1, random.uniform());
+            if (b.isDelta(lobe)) continue;
+            const Vec3f wo = b.template sample<float>(uv, wi, lobe, u0, u1);
+            if (std::abs(wo.z) < 0.1f) continue;
+            const double at[4] = {std::acos(wi.z), std::atan2(wi.y, wi.x), std::acos(wo.z),
+                                  std::atan2(wo.y, wo.x)};
+            for (int which = 0; which < 3; ++which) {
+              const auto f = [&](const auto* x) {
+                using T = std::remove_cvref_t<decltype(x[0])>;
+                const auto e = b.template evaluate<T>(Vec2<T>(T(uv.x), T(uv.y)),
+                                                      spherical<T>(x[0], x[1]),
+                                                      spherical<T>(x[2], x[3]));
+                return T(ad::log(which == 0 ? luminance(e.value)
+                                            : (which == 1 ? e.pdf : e.pdfReverse)));
+              };
+              D x[4];
+              for (int i = 0; i < 4; ++i) x[i] = D::variable(at[i], i);
+              const D y = f(x);
+              if (!(y.v > -12)) continue;
+              const auto g = [&](int i, double h, int j, double k) {
+                double p[4] = {at[0], at[1], at[2], at[3]};
+                p[i] += h;
+                p[j] += k;
+                return f(p);
+              };
+              ++checked;
+              double scale = 1;
+              for (int i = 0; i < 4; ++i)
+                for (int j = 0; j <= i; ++j) scale = std::max(scale, std::abs(y.hessian(i, j)));
+              for (int i = 0; i < 4; ++i) {
+                // Five points in each direction: errors of order h^4.
+                const double h = 2e-4;
+                const double slope = (8 * (g(i, h, i, 0) - g(i, -h, i, 0)) -
+                                      (g(i, 2 * h, i, 0) - g(i, -2 * h, i, 0))) / (12 * h);
+                EXPECT_NEAR(y.gradient(i), slope, 1e-6 * scale) << c.name << " " << which;
+                for (int j = 0; j <= i; ++j) {
+                  const auto mixed = [&](double s) {
+                    return (g(i, s, j, s) - g(i, s, j, -s) - g(i, -s, j, s) + g(i, -s, j, -s)) /
+                           (4 * s * s);
+                  };
+                  // At i = j the steps add up: (f(2s) - 2 f(0) + f(-2s)) / (2s)^2.
+                  const double second = (4 * mixed(h) - mixed(2 * h)) / 3;
+                  EXPECT_NEAR(y.hessian(i, j), second, 1e-4 * scale)
+                      << c.name << " " << which << " (" << i << ", " << j << ")";
+                }
+              }
+            }
+          }
+        },
+        c.bsdf);
+  }
+  EXPECT_GT(checked, 300);
+}
+
+// Values and derivatives in float stay finite wherever something is scattered: small roughness,
+// grazing angles, both ends of u0.
+TEST(BsdfDerivative, FiniteInFloatUnderStrain) {
+  using D = ad::Dual2<float, 4>;
+  std::vector<BsdfCase> cases = glossyCases();
+  for (const float alpha : {1e-3f, 1e-2f, 1.0f}) {
+    for (const auto d : {kGgx, kBeckmann}) {
+      cases.push_back({"roughconductor", roughConductor(facets(d, alpha), gold())});
+      cases.push_back({"roughdielectric", roughDielectric(facets(d, alpha), 1.5f), true});
+      cases.push_back({"roughplastic", roughPlastic(facets(d, alpha), Rgbf(0.5f), 1.5f, true)});
+    }
+  }
+  Random random(32, 1, 0);
+  const Vec2f uv(0.3f, 0.4f);
+  int finite = 0, all = 0;
+  for (const BsdfCase& c : cases) {
+    std::visit(
+        [&](const auto& b) {
+          for (int trial = 0; trial < 300; ++trial) {
+            const float side = c.entersBack && random.uniform() < 0.5f ? -1.0f : 1.0f;
+            const float grazing = random.uniform() < 0.3f ? 1e-3f : 1.0f;
+            const Vec3f wi = direction(side * std::max(1e-6f, grazing * random.uniform()),
+                                       6 * random.uniform());
+            const float u0 = random.uniform() < 0.1f ? 0x1p-24f * (random.next() % 4)
+                                                     : random.uniform();
+            const float u1 = random.uniform();
+            const int lobe = b.chooseLobe(uv, wi, u0, u1, random.uniform());
+            const Vec3<D> in(D::variable(wi.x, 0), D::variable(wi.y, 1), D(wi.z));
+            const Vec2<D> duv{D(uv.x), D(uv.y)};
+            if (b.isDelta(lobe)) continue;
+            const Vec3<D> wo = b.template sample<D>(duv, in, lobe, D::variable(u0, 2),
+                                                    D::variable(u1, 3));
+            const auto e = b.template evaluate<D>(duv, in, wo);
+            EXPECT_TRUE(std::isfinite(value(e.value.x)) && std::isfinite(value(e.pdf)) &&
+                        std::isfinite(value(e.pdfReverse)))
+                << c.name;
+            if (!(value(e.pdf) > 0 && value(e.value.x) > 0)) continue;
+            ++all;
+            finite += isFinite(e.value.x) && isFinite(e.pdf) && isFinite(e.pdfReverse);
+          }
+        },
+        c.bsdf);
+  }
+  EXPECT_GT(all, 3000);
+  EXPECT_EQ(finite, all);
+}
+
+}  // namespace
+}  // namespace h2mc
