@@ -325,10 +325,11 @@ struct Dual2 {
   }
 
  private:
-  // s x, but 0 where x is 0, whatever s is.
+  // s x, but 0 where either is 0, whatever the other is.
   template <class S>
   static H2MC_AD_INLINE Vec product(const S& s, const Vec& x) {
-    return x == Vec{} ? Vec{} : s * x;
+    const Vec factor = s - Vec{};
+    return factor == Vec{} ? Vec{} : x == Vec{} ? Vec{} : factor * x;
   }
   [[gnu::cold, gnu::noinline]] static Dual2 chainAtSingularity(const Dual2& a, T f, T f1, T f2) {
     return make(
@@ -356,8 +357,8 @@ struct Dual2 {
     return make(
         r, [&](int k) H2MC_AD_LAMBDA { return rg[k]; },
         [&](auto c) H2MC_AD_LAMBDA {
-          return (a.h[c.index] - product(r, b.h[c.index]) - c.row(rg) * c.column(b.g) -
-                  c.row(b.g) * c.column(rg)) /
+          return (a.h[c.index] - product(r, b.h[c.index]) - product(c.row(rg), c.column(b.g)) -
+                  product(c.row(b.g), c.column(rg))) /
                  b.v;
         });
   }

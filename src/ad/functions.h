@@ -249,7 +249,9 @@ template <class T, int N>
 H2MC_AD_INLINE Dual2<T, N> pow(const Dual2<T, N>& a, const Dual2<T, N>& p) {
   const T f = std::pow(a.v, p.v), f1 = std::pow(a.v, p.v - T(1)), l = std::log(a.v);
   const T fa = p.v == T(0) ? T(0) : p.v * f1;
-  const T faa = fa == T(0) || p.v == T(1) ? T(0) : fa * (p.v - T(1)) / a.v;
+  const T faa = p.v == T(0) || p.v == T(1) ? T(0)
+                : fa != T(0)               ? fa * (p.v - T(1)) / a.v
+                                           : p.v * (p.v - T(1)) * std::pow(a.v, p.v - T(2));
   const T fp = f == T(0) ? T(0) : f * l;
   const T fap = f1 == T(0) ? T(0) : f1 * (T(1) + p.v * l);
   return chain(a, p, f, fa, fp, faa, fap, fp == T(0) ? T(0) : fp * l);

@@ -41,6 +41,7 @@ class SymmetricEigen {
   using Row = double[kStride];
   // Relative to a matrix with entries of order 1: squares of larger numbers do not underflow.
   static constexpr double kTiny = 1e-140;
+  static constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
   static H2MC_AD_INLINE Vec load(const double* p) {
     Vec x;
@@ -189,8 +190,15 @@ bool SymmetricEigen<MaxSize>::diagonalise(double* e) {
   const int chunks = detail::divideUp(n_, kWidth);
   const auto negligible = [&](int i) {
     const double x = std::abs(e[i]);
-    return x <= std::numeric_limits<double>::epsilon() * (std::abs(d[i]) + std::abs(d[i + 1])) ||
-           x < kTiny;
+    return x <= kEpsilon * (std::abs(d[i]) + std::abs(d[i + 1])) || x < kTiny;
+  };
+  const auto rotate = [&](int k, double c, double s) {  // rows k and k + 1 of the vectors
+    for (int i = 0; i < chunks; ++i) {
+      double *upper = vectors_[k] + i * kWidth, *lower = vectors_[k + 1] + i * kWidth;
+      const Vec u = load(upper), l = load(lower);
+      store(upper, c * u + s * l);
+      store(lower, c * l - s * u);
+    }
   };
   int steps = 30 * n_;
   for (int last = n_ - 1; last > 0;) {
@@ -202,23 +210,30 @@ bool SymmetricEigen<MaxSize>::diagonalise(double* e) {
     int begin = last - 1;
     while (begin > 0 && !negligible(begin - 1)) --begin;
 
-    // Wilkinson's shift: the eigenvalue of the last 2 x 2 block that is nearer to its last entry.
+    // The last 2 x 2 block's rotation to diagonal form, by its tangent.
     const double b = e[last - 1], delta = 0.5 * (d[last - 1] - d[last]);
-    const double shift =
-        d[last] - b * b / (delta + std::copysign(std::sqrt(delta * delta + b * b), delta));
+    const double tangent = b / (delta + std::copysign(std::sqrt(delta * delta + b * b), delta));
+    const double shift = d[last] - tangent * b;  // Wilkinson's: its eigenvalue nearer to d[last]
+    const double fill = last - 1 > begin ? tangent * e[last - 2] : 0;
+    if (std::abs(fill) <= kEpsilon * (std::abs(d[last - 2 * (fill != 0)]) + std::abs(shift))) {
+      // That rotation moves nothing of note to where the matrix has a zero: no step is needed.
+      const double c = 1 / std::sqrt(1 + tangent * tangent);
+      d[last - 1] += tangent * b;
+      d[last] = shift;
+      e[last - 1] = 0;
+      if (last - 1 > begin) e[last - 2] *= c;
+      rotate(last - 1, c, tangent * c);
+      --last;
+      continue;
+    }
     double x = d[begin] - shift, z = e[begin];
     for (int k = begin; k < last; ++k) {
       // The rotation of rows k and k + 1 that turns (x, z) to (r, 0) pushes the bulge z one down.
-      const double r2 = x * x + z * z;
-      double c = 1, s = 0;
-      if (r2 > 0) {
-        const double r = std::sqrt(r2), inverse = 1 / r;
-        c = x * inverse;
-        s = z * inverse;
-        if (k > begin) e[k - 1] = r;
-      } else if (k > begin) {
-        e[k - 1] = 0;
-      }
+      // Square root and division do not wait for each other.
+      const double r2 = x * x + z * z, r = std::sqrt(r2), inverse = r * (1 / r2);
+      const bool turns = r2 > kTiny * kTiny;
+      const double c = turns ? x * inverse : 1, s = turns ? z * inverse : 0;
+      if (k > begin) e[k - 1] = turns ? r : 0;
       const double t = s * (d[k + 1] - d[k]) + 2 * c * e[k];
       d[k] += s * t;
       d[k + 1] -= s * t;
@@ -227,12 +242,7 @@ bool SymmetricEigen<MaxSize>::diagonalise(double* e) {
         z = s * e[k + 1];
         e[k + 1] *= c;
       }
-      for (int i = 0; i < chunks; ++i) {
-        double *upper = vectors_[k] + i * kWidth, *lower = vectors_[k + 1] + i * kWidth;
-        const Vec u = load(upper), l = load(lower);
-        store(upper, c * u + s * l);
-        store(lower, c * l - s * u);
-      }
+      rotate(k, c, s);
     }
   }
   return true;
