@@ -76,7 +76,7 @@ inline RoughPlastic roughPlastic(Microfacet f, const Rgbf& color, float eta, boo
   b.eta = eta;
   b.specular = gray(1);
   b.specularWeight = 1 / (1 + luminance(color));
-  b.transmittance = std::make_shared<const RoughTransmittance>(f, eta);
+  b.transmittance = RoughTransmittance::shared(f, eta);
   b.base = LayeredDiffuse(constantTexture(color), 1, b.transmittance->internalReflectance(), eta,
                           nonlinear);
   return b;

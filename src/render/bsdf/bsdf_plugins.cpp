@@ -228,7 +228,7 @@ Bsdf createRoughPlastic(const Properties& p) {
   RoughPlastic b;
   b.facets = readFacets(p, false);
   b.eta = relativeIndex(p, true);
-  b.transmittance = std::make_shared<const RoughTransmittance>(b.facets, b.eta);
+  b.transmittance = RoughTransmittance::shared(b.facets, b.eta);
   readCoat(p, b, b.transmittance->internalReflectance());
   return b;
 }

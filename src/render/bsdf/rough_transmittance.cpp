@@ -1,5 +1,9 @@
 #include "render/bsdf/rough_transmittance.h"
 
+#include <map>
+#include <mutex>
+#include <tuple>
+
 #include "render/bsdf/fresnel.h"
 #include "render/bsdf/quadrature.h"
 
@@ -69,7 +73,7 @@ RoughTransmittance::RoughTransmittance(const Microfacet& facets, double eta) {
   std::vector<double> f(n + 1), m(n + 1), diagonal(n + 1), right(n + 1);
   for (int i = 0; i <= n; ++i) f[i] = integrate(facets, eta, double(i) * i / (double(n) * n));
   // Slopes m per interval of a spline with m[0] = 0 (the function is smooth in c, so even in
-  // sqrt(c)) and a third-order difference at the other end: m[i-1] + 4 m[i] + m[i+1] = 3 (f[i+1] -
+  // sqrt(c)) and a one-sided difference at the other end: m[i-1] + 4 m[i] + m[i+1] = 3 (f[i+1] -
   // f[i-1]).
   m[0] = 0;
   m[n] = (11 * f[n] - 18 * f[n - 1] + 9 * f[n - 2] - 2 * f[n - 3]) / 6;
@@ -101,6 +105,19 @@ RoughTransmittance::RoughTransmittance(const Microfacet& facets, double eta) {
     }
   }
   internalReflectance_ = 1 - through;
+}
+
+std::shared_ptr<const RoughTransmittance> RoughTransmittance::shared(const Microfacet& facets,
+                                                                     double eta) {
+  using Key = std::tuple<FacetDistribution, float, double>;
+  static std::mutex mutex;
+  static std::map<Key, std::weak_ptr<const RoughTransmittance>> known;
+  const std::scoped_lock lock(mutex);
+  auto& entry = known[{facets.distribution, facets.alpha, eta}];
+  if (auto made = entry.lock()) return made;
+  auto made = std::make_shared<const RoughTransmittance>(facets, eta);
+  entry = made;
+  return made;
 }
 
 }  // namespace h2mc

@@ -1,6 +1,7 @@
 // How much light passes a rough dielectric interface.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "render/bsdf/microfacet.h"
@@ -14,8 +15,11 @@ namespace h2mc {
 // A cubic spline in sqrt(c): near grazing incidence the function varies over c ~ alpha.
 class RoughTransmittance {
  public:
-  // eta: the inside's index over the outside's. About 10 ms.
+  // eta: the inside's index over the outside's. Takes some 30 ms.
   RoughTransmittance(const Microfacet& facets, double eta);
+
+  // The same, computed once while anyone holds it.
+  static std::shared_ptr<const RoughTransmittance> shared(const Microfacet& facets, double eta);
 
   // From outside.
   template <class T>

@@ -1,0 +1,255 @@
+// What the BSDFs promise, pointwise: reciprocity, consistent densities, exact inverses, delta lobes,
+// and finite numbers for any unit vectors.
+#include <gtest/gtest.h>
+
+#include "bsdf_cases.h"
+#include "render/core/random.h"
+
+namespace h2mc {
+namespace {
+
+using namespace test;
+
+const Vec2f kUv(0.3f, 0.4f);
+
+Vec3f randomDirection(Random& random, bool anySide) {
+  const float z = 0.01f + 0.98f * random.uniform();
+  return direction(anySide && random.uniform() < 0.5f ? -z : z, 6.28f * random.uniform());
+}
+
+// f(wi, wo) = f(wo, wi) within a side; across, f eta_o^2 is symmetric [Veach 1997, eq. 5.14].
+TEST(Bsdf, IsReciprocal) {
+  Random random(40, 1, 0);
+  for (const BsdfCase& c : glossyCases()) {
+    std::visit(
+        [&](const auto& b) {
+          using B = std::remove_cvref_t<decltype(b)>;
+          double eta = 1;
+          if constexpr (std::is_same_v<B, RoughDielectric>) eta = b.eta;
+          for (int i = 0; i < 500; ++i) {
+            const Vec3<double> wi(randomDirection(random, c.entersBack));
+            const Vec3<double> wo(randomDirection(random, c.entersBack));
+            const Vec2<double> uv(kUv);
+            const auto e = b.template evaluate<double>(uv, wi, wo);
+            const auto r = b.template evaluate<double>(uv, wo, wi);
+            const double ni = wi.z < 0 ? eta : 1, no = wo.z < 0 ? eta : 1;
+            for (int k = 0; k < 3; ++k) {
+              const double forward = e.value[k] / std::abs(wo.z) * no * no;
+              const double backward = r.value[k] / std::abs(wi.z) * ni * ni;
+              EXPECT_NEAR(forward, backward, 1e-9 * (1 + forward)) << c.name;
+            }
+            EXPECT_NEAR(e.pdf, r.pdfReverse, 1e-9 * (1 + e.pdf)) << c.name;
+            EXPECT_NEAR(e.pdfReverse, r.pdf, 1e-9 * (1 + r.pdf)) << c.name;
+          }
+        },
+        c.bsdf);
+  }
+}
+
+TEST(Bsdf, LobeDensitiesAddUp) {
+  Random random(41, 1, 0);
+  for (const BsdfCase& c : glossyCases()) {
+    std::visit(
+        [&](const auto& b) {
+          using B = std::remove_cvref_t<decltype(b)>;
+          for (int i = 0; i < 300; ++i) {
+            const Vec3f wi = randomDirection(random, c.entersBack);
+            const Vec3f wo = randomDirection(random, true);
+            float sum = 0;
+            for (int lobe = 0; lobe < B::kLobes; ++lobe)
+              sum += b.template lobePdf<float>(kUv, wi, wo, lobe);
+            const float pdf = b.template evaluate<float>(kUv, wi, wo).pdf;
+            EXPECT_NEAR(sum, pdf, 1e-5f * (1 + pdf)) << c.name;
+          }
+        },
+        c.bsdf);
+  }
+}
+
+TEST(Bsdf, InvertGivesBackTheCoordinates) {
+  Random random(42, 1, 0);
+  int checked = 0;
+  for (const BsdfCase& c : glossyCases()) {
+    std::visit(
+        [&](const auto& b) {
+          for (int i = 0; i < 2000; ++i) {
+            const Vec3f wi = randomDirection(random, c.entersBack);
+            const float u0 = random.uniform(), u1 = random.uniform();
+            const int lobe = b.chooseLobe(kUv, wi, u0, u1, random.uniform());
+            if (b.isDelta(lobe)) continue;
+            const Vec3f wo = b.template sample<float>(kUv, wi, lobe, u0, u1);
+            if (!(b.template lobePdf<float>(kUv, wi, wo, lobe) > 0)) continue;
+            Vec2f u;
+            ASSERT_TRUE(b.invert(kUv, wi, wo, lobe, u)) << c.name;
+            // A direction is good to about 1e-7; how far that moves a coordinate depends on the
+            // lobe's width and, for the azimuth, on the distance from the pole.
+            const float slack = 5e-6f / std::min(1.0f, b.width(lobe));
+            float turn = std::abs(u.y - u1);
+            turn = std::min(turn, 1 - turn) * std::sqrt(u0 * (1 - u0));
+            EXPECT_NEAR(u.x, u0, slack) << c.name << ", wi.z " << wi.z;
+            EXPECT_NEAR(turn, 0, slack) << c.name << ", wi.z " << wi.z;
+            EXPECT_TRUE(u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1);
+            const Vec3f again = b.template sample<float>(kUv, wi, lobe, u.x, u.y);
+            EXPECT_LT(glm::length(again - wo), 2e-5f) << c.name << ", u " << u0 << " " << u1;
+            ++checked;
+          }
+        },
+        c.bsdf);
+  }
+  EXPECT_GT(checked, 15000);
+}
+
+TEST(Bsdf, AzimuthWraps) {
+  for (const BsdfCase& c : glossyCases()) {
+    std::visit(
+        [&](const auto& b) {
+          for (int lobe = 0; lobe < std::remove_cvref_t<decltype(b)>::kLobes; ++lobe) {
+            if (b.isDelta(lobe)) continue;
+            const Vec3f wi = direction(0.8f, 1);
+            const Vec3f a = b.template sample<float>(kUv, wi, lobe, 0.3f, 0.0f);
+            const Vec3f z = b.template sample<float>(kUv, wi, lobe, 0.3f, 0x1.fffffep-1f);
+            EXPECT_LT(glm::length(a - z), 1e-5f) << c.name;
+          }
+        },
+        c.bsdf);
+  }
+}
+
+// Whatever unit vectors come, the numbers are finite, not negative, and directions are unit.
+TEST(Bsdf, FiniteForAllUnitVectors) {
+  std::vector<BsdfCase> cases = glossyCases();
+  for (const float alpha : {1e-4f, 1e-3f, 2.0f})
+    for (const auto d : {kGgx, kBeckmann}) {
+      cases.push_back({"roughconductor", roughConductor(facets(d, alpha), gold())});
+      cases.push_back({"roughdielectric", roughDielectric(facets(d, alpha), 1.5f), true});
+      cases.push_back({"roughdielectric air", roughDielectric(facets(d, alpha), 1.000277f), true});
+      cases.push_back({"roughplastic", roughPlastic(facets(d, alpha), Rgbf(0.5f), 1.5f, true)});
+    }
+  cases.push_back({"phong 1e5", phong(0.1f, 0.9f, 1e5f)});
+  cases.push_back({"phong black", phong(0, 0.9f, 10)});
+  std::vector<Vec3f> extremes = {{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, -1, 0}, {-1, 0, -0.0f}};
+  for (const float z : {1e-6f, 1e-4f, 1e-20f, 1 - 6e-8f})
+    for (const float phi : {0.0f, 1.3f, 3.1415927f, 4.4f}) {
+      extremes.push_back(direction(z, phi));
+      extremes.push_back(direction(-z, phi));
+    }
+  Random random(43, 1, 0);
+  for (int i = 0; i < 20; ++i) extremes.push_back(randomDirection(random, true));
+  for (const BsdfCase& c : cases) {
+    std::visit(
+        [&](const auto& b) {
+          for (const Vec3f& wi : extremes) {
+            for (const Vec3f& wo : extremes) {
+              const auto e = b.template evaluate<float>(kUv, wi, wo);
+              for (const float x : {e.value.x, e.value.y, e.value.z, e.pdf, e.pdfReverse})
+                EXPECT_TRUE(std::isfinite(x) && x >= 0)
+                    << c.name << ": " << x << " at " << wi.z << ", " << wo.z;
+              for (int lobe = 0; lobe < b.kLobes; ++lobe) {
+                Vec2f u;
+                if (b.invert(kUv, wi, wo, lobe, u)) {
+                  EXPECT_TRUE(u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1) << c.name;
+                }
+              }
+            }
+            for (const float u0 : {0.0f, 0x1p-24f, 0.5f, 0x1.fffffep-1f})
+              for (const float u1 : {0.0f, 0.7f})
+                for (const float choice : {0.0f, 0x1.fffffep-1f}) {
+                  const int lobe = b.chooseLobe(kUv, wi, u0, u1, choice);
+                  ASSERT_TRUE(lobe >= 0 && lobe < b.kLobes);
+                  if (b.isDelta(lobe)) continue;
+                  const Vec3f wo = b.template sample<float>(kUv, wi, lobe, u0, u1);
+                  EXPECT_NEAR(glm::length(wo), 1, 3e-6f) << c.name << " " << wi.z << " " << u0;
+                }
+          }
+        },
+        c.bsdf);
+  }
+}
+
+// One-sided BSDFs scatter nothing on or from the back.
+TEST(Bsdf, NothingBehindOneSidedSurfaces) {
+  const Vec3f up = direction(0.6f, 1), down = direction(-0.4f, 2);
+  for (const BsdfCase& c : glossyCases()) {
+    if (c.entersBack) continue;
+    std::visit(
+        [&](const auto& b) {
+          EXPECT_FALSE(b.transmits());
+          for (const auto& [wi, wo] : {std::pair(up, down), {down, up}, {down, down}})
+            EXPECT_EQ(b.template evaluate<float>(kUv, wi, wo).pdf, 0) << c.name;
+        },
+        c.bsdf);
+  }
+}
+
+TEST(Bsdf, MirrorsAndGlassObeySnellAndFresnel) {
+  const Vec3f wi = direction(0.6f, 1);
+  const auto mirror = conductor(gold()).sampleDelta<float>(kUv, wi, 0);
+  EXPECT_EQ(mirror.wo, Vec3f(-wi.x, -wi.y, wi.z));
+  EXPECT_EQ(mirror.probability, 1);
+  // Normal incidence: ((n - 1)^2 + k^2) / ((n + 1)^2 + k^2).
+  const auto straight = conductor(gold()).sampleDelta<float>(kUv, {0, 0, 1}, 0);
+  EXPECT_NEAR(straight.radiance.x, (0.857 * 0.857 + 3.98 * 3.98) / (1.143 * 1.143 + 3.98 * 3.98),
+              1e-5);
+
+  for (const float side : {1.0f, -1.0f}) {
+    const Vec3f in = direction(side * 0.9f, 0.4f);
+    const Dielectric glass = dielectric(1.5f);
+    const float relative = side > 0 ? 1.5f : 1 / 1.5f;
+    const auto r = glass.sampleDelta<float>(kUv, in, Dielectric::kReflect);
+    const auto t = glass.sampleDelta<float>(kUv, in, Dielectric::kTransmit);
+    EXPECT_NEAR(r.importance.x + t.importance.x, 1, 1e-6);
+    EXPECT_NEAR(r.probability + t.probability, 1, 1e-6);
+    EXPECT_NEAR(t.radiance.x, t.importance.x / (relative * relative), 1e-6);
+    EXPECT_NEAR(glm::length(t.wo), 1, 1e-6);
+    EXPECT_LT(t.wo.z * in.z, 0);
+    EXPECT_NEAR(t.wo.x * relative, -in.x, 1e-6);
+    EXPECT_NEAR(t.wo.y * relative, -in.y, 1e-6);
+    // Seen from the other end the same light is bent back, with the same share.
+    const auto back = glass.sampleDelta<float>(kUv, t.wo, Dielectric::kTransmit);
+    EXPECT_LT(glm::length(back.wo - in), 1e-6);
+    EXPECT_NEAR(back.probability, t.probability, 1e-6);
+  }
+  // Total reflection.
+  const Vec3f shallow = direction(-0.3f, 0.4f);
+  EXPECT_EQ(dielectric(1.5f).sampleDelta<float>(kUv, shallow, 0).probability, 1);
+  EXPECT_EQ(dielectric(1.5f).chooseLobe(kUv, shallow, 0, 0, 0.9999f), Dielectric::kReflect);
+  EXPECT_EQ(dielectric(1.5f).sampleDelta<float>(kUv, shallow, 1).radiance.x, 0);
+  // Normal incidence: ((n - 1) / (n + 1))^2.
+  EXPECT_NEAR(fresnelDielectric(1.0, 1.5), 0.04, 1e-12);
+  EXPECT_NEAR(transmitDielectric(1.0, 1.5), 0.96, 1e-12);
+  EXPECT_NEAR(fresnelDielectric(0.3, 1.4) + transmitDielectric(0.3, 1.4), 1, 1e-12);
+  // A conductor without absorption is a dielectric.
+  EXPECT_NEAR(fresnelConductor(0.3, 1.4, 0.0), fresnelDielectric(0.3, 1.4), 1e-12);
+  EXPECT_EQ(fresnelConductor(0.3, 0.0, 1.0), 1);
+  // Known values [d'Eon and Irving 2011, for eta = 1.5 from both sides].
+  EXPECT_NEAR(fresnelDiffuse(1.5), 0.0918, 1e-4);
+  EXPECT_NEAR(fresnelDiffuse(1 / 1.5), 0.5963, 1e-4);
+}
+
+// Modified Phong by hand, at one pair of directions.
+TEST(Bsdf, PhongByHand) {
+  const Phong b = phong(0.3f, 0.5f, 20);
+  const Vec3f wi = direction(0.8f, 0), wo = direction(0.7f, 3.0f);
+  const double cosine = -wi.x * wo.x - wi.y * wo.y + wi.z * wo.z;
+  const double lobe = std::pow(cosine, 20);
+  const auto e = b.evaluate<float>(kUv, wi, wo);
+  EXPECT_NEAR(e.value.x, (0.3 / kPi + 0.5 * 22 / (2 * kPi) * lobe) * wo.z, 1e-5);
+  EXPECT_NEAR(e.pdf, 0.625 * 21 / (2 * kPi) * lobe + 0.375 * wo.z / kPi, 1e-5);
+}
+
+TEST(Bsdf, RoughTransmittanceIsTheSmoothOneWithoutRoughness) {
+  for (const auto d : {kGgx, kBeckmann}) {
+    const RoughTransmittance t(facets(d, 1e-3f), 1.5);
+    for (const double c : {0.05, 0.3, 0.7, 1.0})
+      EXPECT_NEAR(t.evaluate(c), transmitDielectric(c, 1.5), 5e-4);
+    EXPECT_NEAR(t.internalReflectance(), fresnelDiffuse(1 / 1.5), 1e-4);
+  }
+  // The spline between its knots.
+  const Microfacet f = facets(kGgx, 0.2f);
+  const RoughTransmittance t(f, 1.5);
+  for (double c = 1e-4; c < 1; c *= 1.7)
+    EXPECT_NEAR(t.evaluate(c), RoughTransmittance::integrate(f, 1.5, c), 2e-5) << c;
+}
+
+}  // namespace
+}  // namespace h2mc
