@@ -1,0 +1,175 @@
+// Lights as scene files make them.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <variant>
+
+#include "light_cases.h"
+#include "render/image/image_io.h"
+#include "render/scene/properties.h"
+
+namespace h2mc {
+namespace {
+
+using Value = std::variant<float, std::string, Rgbf, Mat4>;
+
+// Parameters without a file, checked against the plugin's table.
+class TableProperties : public Properties {
+ public:
+  TableProperties(const Plugin<Light>& plugin, std::map<std::string, Value, std::less<>> values)
+      : plugin_(plugin), values_(std::move(values)) {}
+
+  bool given(std::string_view name) const override {
+    parameter(name);
+    return values_.contains(name);
+  }
+  bool boolean(std::string_view) const override { return false; }
+  int integer(std::string_view) const override { return 0; }
+  float number(std::string_view name) const override {
+    if (given(name)) return std::get<float>(values_.find(name)->second);
+    return std::stof(std::string(fallback(name)));
+  }
+  std::string string(std::string_view name) const override {
+    return std::get<std::string>(values_.find(name)->second);
+  }
+  Rgbf color(std::string_view name) const override {
+    if (given(name)) return std::get<Rgbf>(values_.find(name)->second);
+    return Rgbf(std::stof(std::string(fallback(name))));
+  }
+  TexturePtr texture(std::string_view name) const override { return constantTexture(color(name)); }
+  Vec3f vector(std::string_view name) const override { return color(name); }
+  Mat4 transform(std::string_view name) const override {
+    return given(name) ? std::get<Mat4>(values_.find(name)->second) : Mat4(1);
+  }
+  std::string file(std::string_view name) const override { return string(name); }
+  int nestedBsdfCount() const override { return 0; }
+  int nestedBsdf(int) const override { return -1; }
+  const Material& material(int) const override { throw std::logic_error("no materials"); }
+  [[noreturn]] void fail(std::string_view name, const std::string& message) const override {
+    throw SceneError(std::string(name) + ": " + message);
+  }
+
+ private:
+  const Parameter& parameter(std::string_view name) const {
+    for (const Parameter& p : plugin_.parameters)
+      if (p.name == name) return p;
+    throw std::logic_error("not in the table: " + std::string(name));
+  }
+  std::string_view fallback(std::string_view name) const {
+    const Parameter& p = parameter(name);
+    if (p.fallback.empty()) fail(name, "no default");
+    return p.fallback;
+  }
+
+  const Plugin<Light>& plugin_;
+  std::map<std::string, Value, std::less<>> values_;
+};
+
+Light make(std::string_view type, std::map<std::string, Value, std::less<>> values = {}) {
+  for (const Plugin<Light>& plugin : lightPlugins())
+    if (plugin.name == type) return plugin.create(TableProperties(plugin, std::move(values)));
+  throw std::logic_error("no such light");
+}
+
+Mat4 rotationAboutY(float degrees, float scale = 1) {
+  const float a = glm::radians(degrees), c = std::cos(a) * scale, s = std::sin(a) * scale;
+  Mat4 m(scale);
+  m[0] = {c, 0, -s, 0};
+  m[2] = {s, 0, c, 0};
+  m[3] = {1, 2, 3, 1};
+  return m;
+}
+
+template <class L>
+auto direct(const Light& light, const Vec3f& reference) {
+  const SceneBounds bounds{Vec3f(0), 10};
+  return std::get<L>(light).template sampleDirect<float>(LightContext{{}, bounds}, {}, reference,
+                                                         0.3f, 0.6f);
+}
+
+TEST(LightPlugins, Defaults) {
+  EXPECT_EQ(average(*std::get<AreaLight>(make("area")).radiance), Rgbf(1));
+  EXPECT_EQ(std::get<PointLight>(make("point")).position, Vec3f(0));
+  EXPECT_EQ(std::get<PointLight>(make("point")).intensity, Rgbf(1));
+  EXPECT_EQ(std::get<DirectionalLight>(make("directional")).direction, Vec3f(0, 0, 1));
+  EXPECT_EQ(std::get<ConstantLight>(make("constant")).radiance, Rgbf(1));
+  // Spot: 20 degrees, falling from 15.
+  const Light spot = make("spot");
+  const auto at = [&](float degrees) {
+    const float a = glm::radians(degrees);
+    return direct<SpotLight>(spot, Vec3f(std::sin(a), 0, std::cos(a))).radiance.x;
+  };
+  EXPECT_FLOAT_EQ(at(14.9f), 1);
+  EXPECT_NEAR(at(17.5f), 0.5f, 1e-4f);
+  EXPECT_EQ(at(20.1f), 0);
+}
+
+TEST(LightPlugins, Places) {
+  EXPECT_EQ(std::get<PointLight>(make("point", {{"position", Rgbf(4, 5, 6)}})).position,
+            Vec3f(4, 5, 6));
+  EXPECT_EQ(std::get<PointLight>(make("point", {{"toWorld", rotationAboutY(30)}})).position,
+            Vec3f(1, 2, 3));
+  const Light directional = make("directional", {{"direction", Rgbf(0, -2, 0)}});
+  EXPECT_EQ(std::get<DirectionalLight>(directional).direction, Vec3f(0, -1, 0));
+  const Light turned = make("directional", {{"toWorld", rotationAboutY(90, 3)}});
+  EXPECT_NEAR(std::get<DirectionalLight>(turned).direction.x, 1, 1e-6f);
+  // A spot light at (1, 2, 3) that looks along +x.
+  const Light spot = make("spot", {{"toWorld", rotationAboutY(90, 2)}, {"intensity", Rgbf(8)}});
+  EXPECT_EQ(direct<SpotLight>(spot, Vec3f(3, 2, 3)).radiance, Rgbf(8));
+  EXPECT_FLOAT_EQ(direct<SpotLight>(spot, Vec3f(3, 2, 3)).directPdf, 4);
+  EXPECT_EQ(direct<SpotLight>(spot, Vec3f(1, 2, 5)).radiance, Rgbf(0));
+}
+
+TEST(LightPlugins, Mistakes) {
+  EXPECT_THROW(make("spot", {{"texture", Rgbf(1)}}), SceneError);
+  EXPECT_THROW(make("spot", {{"cutoffAngle", 0.f}}), SceneError);
+  EXPECT_THROW(make("spot", {{"cutoffAngle", 200.f}}), SceneError);
+  EXPECT_THROW(make("spot", {{"beamWidth", 30.f}}), SceneError);
+  EXPECT_THROW(make("spot", {{"toWorld", Mat4(0)}}), SceneError);
+  EXPECT_THROW(make("directional", {{"direction", Rgbf(0)}}), SceneError);
+  EXPECT_THROW(make("point", {{"position", Rgbf(0)}, {"toWorld", Mat4(1)}}), SceneError);
+}
+
+TEST(LightPlugins, Envmap) {
+  const std::string file = (std::filesystem::temp_directory_path() /
+                            ("light_plugins_" + std::to_string(getpid()) + ".exr"))
+                               .string();
+  Image image = test::sky(32, 16);
+  writeImage(file, image);
+  const auto radiance = [](const Light& l, const Vec3f& d) {
+    return std::get<EnvmapLight>(l)
+        .hit<float>(LightContext{{}, {Vec3f(0), 1}}, SurfacePoint<float>{}, glm::normalize(d))
+        .radiance;
+  };
+  const Light plain = make("envmap", {{"filename", file}});
+  const Light turned =
+      make("envmap", {{"filename", file}, {"scale", 3.f}, {"toWorld", rotationAboutY(40, 5)}});
+  const Vec3f d(0.3f, 0.4f, 0.7f);
+  const Rgbf a = radiance(plain, d), b = radiance(turned, glm::mat3(rotationAboutY(40)) * d);
+  EXPECT_LT(glm::length(b - a * 3.0f), 1e-3f * glm::length(b));
+
+  Mat4 sheared(1);
+  sheared[1] = {0.5f, 1, 0, 0};
+  EXPECT_THROW(make("envmap", {{"filename", file}, {"toWorld", sheared}}), SceneError);
+  EXPECT_THROW(make("envmap", {{"filename", file}, {"scale", -1.f}}), SceneError);
+  std::filesystem::remove(file);
+  EXPECT_THROW(make("envmap", {{"filename", file}}), SceneError);
+}
+
+// Every table says what create() asks for.
+TEST(LightPlugins, TablesAreComplete) {
+  EXPECT_EQ(lightPlugins().size(), std::variant_size_v<Light>);
+  for (const Plugin<Light>& plugin : lightPlugins()) {
+    EXPECT_FALSE(plugin.description.empty());
+    for (const Parameter& p : plugin.parameters) EXPECT_FALSE(p.description.empty()) << p.name;
+    if (plugin.name != "envmap") {
+      EXPECT_NO_THROW(make(plugin.name));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace h2mc
