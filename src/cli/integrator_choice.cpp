@@ -48,18 +48,29 @@ void apply(const Wish& wish, OptionSet& options) {
   for (const auto& [name, value] : wish.options) options.set(name, value);
 }
 
+// What the scene says, as far as the integrator has an option for it.
+void applyScene(const Scene& scene, OptionSet& options) {
+  if (scene.samplesPerPixel > 0)
+    for (const char* name : {"samplesPerPixel", "mutationsPerPixel"})
+      if (options.has(name)) options.set(name, std::to_string(scene.samplesPerPixel));
+  for (const auto& [name, value] : scene.options)
+    if (options.has(name)) options.set(name, value);
+  if (options.integrator() != scene.integrator.integrator()) return;
+  for (const auto& [name, value] : scene.integrator.values())
+    if (scene.integrator.given(name)) options.set(name, value);
+}
+
 }  // namespace
 
-IntegratorChoice chooseIntegrator(const std::string& wishText, const OptionSet& sceneOptions) {
+IntegratorChoice chooseIntegrator(const std::string& wishText, const Scene& scene) {
   const Wish wish = parse(wishText);
   std::string name = wish.name;
-  if (name.empty()) name = sceneOptions.integrator();
+  if (name.empty()) name = scene.integrator.integrator();
   if (name.empty()) name = kDefaultIntegrator;
   const IntegratorFactory& factory = findFactory(name);
 
   OptionSet options(factory.plugin);
-  for (const auto& [option, value] : sceneOptions.values())
-    if (sceneOptions.given(option) && options.has(option)) options.set(option, value);
+  applyScene(scene, options);
   apply(wish, options);
   std::unique_ptr<Integrator> integrator = factory.create(options);
   return {std::move(options), std::move(integrator)};

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "render/integrator/integrator.h"
+#include "render/scene/scene.h"
 
 namespace h2mc {
 
@@ -14,10 +15,10 @@ struct IntegratorChoice {
 };
 
 // `wish` is the command line's "NAME", "NAME:option=value,...", ":option=value,..." or "".
-// Without a name it is the scene's integrator, or h2mc. What the scene says about options of the
-// same names holds for whatever integrator is chosen; the wish goes before it.
+// Without a name it is the scene's integrator, or h2mc. What the scene says in the words of another
+// integrator holds where the chosen one has an option of that name; the wish goes before it.
 // Throws InputError or OptionError, saying what there is.
-IntegratorChoice chooseIntegrator(const std::string& wish, const OptionSet& sceneOptions);
+IntegratorChoice chooseIntegrator(const std::string& wish, const Scene& scene);
 
 // "a=1,b=2" of the values in force, as chooseIntegrator reads them.
 std::string optionText(const OptionSet& options);

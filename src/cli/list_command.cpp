@@ -80,30 +80,50 @@ std::string describe(const Parameter& parameter) {
   return text;
 }
 
+constexpr std::size_t kColumns = 100;
+
+// Prints `head`, then `text` word by word, further lines starting below it.
+void printWrapped(const std::string& head, const std::string& text) {
+  std::string line = head;
+  std::size_t begin = 0;
+  bool empty = true;  // no word on this line yet
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    if (!empty && line.size() + 1 + word.size() > kColumns) {
+      fmt::print("{}\n", line);
+      line.assign(head.size(), ' ');
+      empty = true;
+    }
+    line += (empty ? "" : " ") + word;
+    empty = false;
+    begin = end + 1;
+  }
+  line.erase(line.find_last_not_of(' ') + 1);
+  fmt::print("{}\n", line);
+}
+
 void print(const Entry& entry) {
   fmt::print("  {}{}\n", entry.name,
              entry.otherName.empty() ? "" : fmt::format(" (also {})", entry.otherName));
-  if (!entry.description.empty()) fmt::print("      {}\n", entry.description);
-  std::size_t name = 0, type = 0, fallback = 0;
-  for (const Parameter& p : entry.parameters) {
-    if (p.ignored) continue;
-    name = std::max(name, p.name.size());
-    type = std::max(type, typeName(p).size());
-    fallback = std::max(fallback, std::max<std::size_t>(p.fallback.size(), 1));
-  }
+  if (!entry.description.empty()) printWrapped("      ", std::string(entry.description));
+  std::size_t name = 0, type = 0, fallback = 1;
   Names ignored;
   for (const Parameter& p : entry.parameters) {
     if (p.ignored) {
       ignored.emplace_back(p.name);
       continue;
     }
-    std::string line =
-        fmt::format("    {:<{}}  {:<{}}  {:<{}}  {}", p.name, name, typeName(p), type,
-                    p.fallback.empty() ? "-" : p.fallback, fallback, describe(p));
-    line.erase(line.find_last_not_of(' ') + 1);
-    fmt::print("{}\n", line);
+    name = std::max(name, p.name.size());
+    type = std::max(type, typeName(p).size());
+    fallback = std::max(fallback, p.fallback.size());
   }
-  if (!ignored.empty()) fmt::print("    read and not used: {}\n", joined(ignored));
+  for (const Parameter& p : entry.parameters)
+    if (!p.ignored)
+      printWrapped(fmt::format("    {:<{}}  {:<{}}  {:<{}}  ", p.name, name, typeName(p), type,
+                               p.fallback.empty() ? "-" : p.fallback, fallback),
+                   describe(p));
+  if (!ignored.empty()) printWrapped("    read and not used: ", joined(ignored));
 }
 
 int list(const std::string& what) {

@@ -52,7 +52,7 @@ int run(int argc, char** argv) {
   CLI::App app{"Renders scenes by Metropolis light transport steered by derivatives.", "h2mc"};
   app.set_version_flag("--version", "h2mc " H2MC_VERSION_STRING, "Print the version and exit");
   app.set_help_flag("-h,--help", "Print this help and exit");
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);  // that there has to be one is said below
   app.failure_message(CLI::FailureMessage::simple);
   app.footer(
       "`h2mc COMMAND --help` explains a command's options.\n"
@@ -65,12 +65,10 @@ int run(int argc, char** argv) {
   addListCommand(app, command);
   addDiffCommand(app, command);
 
-  // CLI11 would only say that there has to be a command.
   const Names commands{"render", "info", "list", "diff"};
   const std::string first = argc > 1 ? argv[1] : "";
-  if (first.empty())
-    return report(kBadInput, ("which command? available: " + joined(commands)).c_str());
-  if (first[0] != '-' && std::find(commands.begin(), commands.end(), first) == commands.end())
+  const bool known = std::find(commands.begin(), commands.end(), first) != commands.end();
+  if (!first.empty() && first[0] != '-' && !known)
     return report(kBadInput,
                   ("unknown command \"" + first + "\"; " + suggestion(first, commands)).c_str());
 
@@ -81,6 +79,8 @@ int run(int argc, char** argv) {
     std::fprintf(stderr, "h2mc: %s\nTry `%s --help`.\n", e.what(), commandName(app).c_str());
     return kBadInput;
   }
+
+  if (!command) return report(kBadInput, ("which command? available: " + joined(commands)).c_str());
 
   try {
     return command();

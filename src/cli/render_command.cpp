@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "cli/commands.h"
@@ -28,7 +29,7 @@ namespace fs = std::filesystem;
 struct RenderOptions {
   std::string scene, output, integrator, statistics;
   RenderBudget budget;
-  std::uint64_t seed = 0;
+  std::optional<std::uint64_t> seed;
   int threads = 0;
   int width = 0, height = 0;
   double scale = 0;
@@ -47,6 +48,15 @@ void checkBudget(const RenderBudget& budget) {
 // The image, and the PNG beside it where that is another file.
 struct Outputs {
   std::string image, png;
+};
+
+// What is rendered, once the scene has been asked as well.
+struct Plan {
+  const RenderOptions& options;
+  Outputs outputs;
+  OptionSet integrator;
+  std::uint64_t seed = 0;
+  int threads = 1;
 };
 
 Outputs outputsOf(const RenderOptions& options) {
@@ -82,14 +92,13 @@ Scene readSceneFor(const RenderOptions& options) {
   return readScene(options.scene, read);
 }
 
-ImageAttributes attributesOf(const RenderOptions& options, const OptionSet& integrator, int threads,
-                             const RenderResult& result) {
+ImageAttributes attributesOf(const Plan& plan, const RenderResult& result) {
   ImageAttributes attributes{
-      {"scene", options.scene},
-      {"integrator", integrator.integrator()},
-      {"integratorOptions", optionText(integrator)},
-      {"seed", std::to_string(options.seed)},  // 64 bits: no number of the format's holds them
-      {"threads", threads},
+      {"scene", plan.options.scene},
+      {"integrator", plan.integrator.integrator()},
+      {"integratorOptions", optionText(plan.integrator)},
+      {"seed", std::to_string(plan.seed)},  // 64 bits: no number of the format's holds them
+      {"threads", plan.threads},
       {"wallSeconds", result.wallSeconds},
       {"cpuSeconds", result.cpuSeconds},
       {"samples", static_cast<double>(result.samples)},
@@ -99,28 +108,28 @@ ImageAttributes attributesOf(const RenderOptions& options, const OptionSet& inte
       {"interrupted", result.interrupted ? 1 : 0},
       {"programVersion", std::string(H2MC_VERSION_STRING)},  // "version" is taken by OpenEXR
   };
-  if (!options.defines.empty()) {
+  if (!plan.options.defines.empty()) {
     std::string text;
-    for (const std::string& define : options.defines) text += (text.empty() ? "" : " ") + define;
+    for (const std::string& define : plan.options.defines)
+      text += (text.empty() ? "" : " ") + define;
     attributes["sceneDefines"] = text;
   }
   return attributes;
 }
 
-nlohmann::json statisticsOf(const RenderOptions& options, const Outputs& outputs,
-                            const OptionSet& integrator, int threads, const RenderResult& result) {
+nlohmann::json statisticsOf(const Plan& plan, const RenderResult& result) {
   nlohmann::json parameters = nlohmann::json::object();
-  for (const auto& [name, value] : integrator.values()) parameters[name] = value;
+  for (const auto& [name, value] : plan.integrator.values()) parameters[name] = value;
   return {
       {"programVersion", H2MC_VERSION_STRING},
-      {"scene", options.scene},
-      {"image", outputs.image},
+      {"scene", plan.options.scene},
+      {"image", plan.outputs.image},
       {"width", result.image.width},
       {"height", result.image.height},
-      {"integrator", integrator.integrator()},
+      {"integrator", plan.integrator.integrator()},
       {"integratorOptions", parameters},
-      {"seed", options.seed},
-      {"threads", threads},
+      {"seed", plan.seed},
+      {"threads", plan.threads},
       {"wallSeconds", result.wallSeconds},
       {"cpuSeconds", result.cpuSeconds},
       {"samples", result.samples},
@@ -145,6 +154,25 @@ void printSummary(const Outputs& outputs, const RenderResult& result) {
     fmt::print(stderr, "{}", statisticsTable(result.statistics));
 }
 
+int write(const Plan& plan, const RenderResult& result) {
+  if (result.interrupted && (result.image.width == 0 || result.samples == 0)) {
+    fmt::print(stderr, "h2mc: interrupted before there was an image\n");
+    return kInterrupted;
+  }
+  // The paths were right before the render: a failure now is not the user's mistake.
+  try {
+    writeImage(plan.outputs.image, result.image, attributesOf(plan, result));
+    if (!plan.outputs.png.empty()) writeImage(plan.outputs.png, result.image);
+    if (!plan.options.statistics.empty())
+      writeTextAtomically(plan.options.statistics, statisticsOf(plan, result).dump(2) + "\n");
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "h2mc: {}\n", e.what());
+    return kFailed;
+  }
+  if (!plan.options.quiet) printSummary(plan.outputs, result);
+  return result.interrupted ? kInterrupted : kSuccess;
+}
+
 int render(const RenderOptions& options) {
   if (options.quiet) spdlog::set_level(spdlog::level::err);
   checkBudget(options.budget);
@@ -155,14 +183,16 @@ int render(const RenderOptions& options) {
   const Scene scene = readSceneFor(options);
   if (!options.quiet)
     for (const std::string& note : scene.notes) fmt::print(stderr, "{}\n", note);
-  const IntegratorChoice choice = chooseIntegrator(options.integrator, scene.integrator);
-  const int threads = options.threads > 0
-                          ? options.threads
-                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const IntegratorChoice choice = chooseIntegrator(options.integrator, scene);
+  Plan plan{options, outputs, choice.options};
+  plan.seed = options.seed.value_or(scene.seed.value_or(0));
+  plan.threads = options.threads > 0
+                     ? options.threads
+                     : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   if (!options.quiet)
     fmt::print(stderr, "{}: {} x {}, {}, seed {}, {} thread{}\n", options.scene, scene.film.width,
-               scene.film.height, choice.options.integrator(), options.seed, threads,
-               threads == 1 ? "" : "s");
+               scene.film.height, plan.integrator.integrator(), plan.seed, plan.threads,
+               plan.threads == 1 ? "" : "s");
 
   // Until the files are written, so that a second signal leaves no half of one.
   const StopSignals signals;
@@ -173,31 +203,13 @@ int render(const RenderOptions& options) {
         options.budget.seconds);
     RenderRequest request;
     request.budget = options.budget;
-    request.seed = options.seed;
-    request.threads = threads;
+    request.seed = plan.seed;
+    request.threads = plan.threads;
     request.stop = &StopSignals::requested();
     request.progress = [&](const RenderProgress& progress) { display.update(progress); };
     result = choice.integrator->render(scene, request);
   }
-  if (result.interrupted && (result.image.width == 0 || result.samples == 0)) {
-    fmt::print(stderr, "h2mc: interrupted before there was an image\n");
-    return kInterrupted;
-  }
-
-  // The input was right, and so were the paths before the render: not the user's mistake.
-  try {
-    writeImage(outputs.image, result.image, attributesOf(options, choice.options, threads, result));
-    if (!outputs.png.empty()) writeImage(outputs.png, result.image);
-    if (!options.statistics.empty())
-      writeTextAtomically(
-          options.statistics,
-          statisticsOf(options, outputs, choice.options, threads, result).dump(2) + "\n");
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "h2mc: {}\n", e.what());
-    return kFailed;
-  }
-  if (!options.quiet) printSummary(outputs, result);
-  return result.interrupted ? kInterrupted : kSuccess;
+  return write(plan, result);
 }
 
 }  // namespace
@@ -226,13 +238,11 @@ void addRenderCommand(CLI::App& app, Run& run) {
   auto* budget = command->add_option_group("Budget", "One of them; default: the integrator's own");
   budget->add_option("-t,--time", options->budget.seconds, "Seconds to render for")
       ->check(positive);
-  budget
-      ->add_option("-s,--samples-per-pixel", options->budget.samplesPerPixel,
-                   "Samples a pixel (path, bdpt)")
+  budget->add_option("-s,--samples-per-pixel", options->budget.samplesPerPixel, "Samples a pixel")
       ->check(positive);
   budget
       ->add_option("-m,--mutations-per-pixel", options->budget.mutationsPerPixel,
-                   "Mutations a pixel (mmlt, h2mc)")
+                   "Mutations a pixel")
       ->check(positive);
 
   auto* width =
@@ -245,8 +255,8 @@ void addRenderCommand(CLI::App& app, Run& run) {
       ->check(positive)
       ->excludes(width)
       ->excludes(height);
-  command->add_option("--seed", options->seed, "Same scene, options and seed: same image")
-      ->capture_default_str();
+  command->add_option("--seed", options->seed,
+                      "Same scene, options and seed: same image. Default: the scene's, or 0");
   command->add_option("--threads", options->threads, "Default: one a core")->check(positive);
   command
       ->add_option("-D", options->defines,

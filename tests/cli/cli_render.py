@@ -116,7 +116,9 @@ class Render(_h2mc.Test):
             with self.subTest(integrator):
                 process = self.start("-i", integrator, "--stats", "a.json",
                                      stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-                time.sleep(3)
+                # The first line of progress: it renders now.
+                while not re.search(r" left$", line := process.stderr.readline()):
+                    self.assertNotEqual(line, "", "it ended before it was interrupted")
                 process.send_signal(number)
                 output, messages = process.communicate(timeout=60)
                 self.assertEqual(process.returncode, 130, messages)
