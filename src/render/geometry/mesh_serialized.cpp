@@ -2,11 +2,12 @@
 // where they start at its end. Numbers are little endian.
 #include <zlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 
 #include "render/geometry/mesh_data.h"
-#include "render/geometry/mesh_text.h"
 
 namespace h2mc {
 namespace {
@@ -109,33 +110,56 @@ class Inflater {
 }  // namespace
 
 MeshData loadSerialized(const std::string& path, int shapeIndex) {
-  const std::string text = readMeshFile(path);
-  const auto* bytes = reinterpret_cast<const unsigned char*>(text.data());
+  // Only the mesh itself is read: a file may hold thousands.
+  std::ifstream stream(path, std::ios::binary | std::ios::ate);
+  if (!stream) throw MeshError(path + ": cannot be opened for reading");
+  const auto size = static_cast<std::uint64_t>(std::max<std::streamoff>(stream.tellg(), 0));
   const auto bad = [&](const std::string& message) { return MeshError(path + ": " + message); };
-  if (text.size() < 8 || littleEndian<std::uint16_t>(bytes) != kMagic)
-    throw bad("not a file of serialized meshes");
-  const auto fileVersion = littleEndian<std::uint16_t>(bytes + 2);
+  const auto bytesAt = [&](std::uint64_t offset, std::uint64_t count) {
+    std::string bytes(static_cast<std::size_t>(count), '\0');
+    stream.seekg(static_cast<std::streamoff>(offset));
+    if (!stream.read(bytes.data(), static_cast<std::streamsize>(count)))
+      throw bad("cannot be read");
+    return bytes;
+  };
+  const auto number = [&]<class Value>(std::uint64_t offset, Value) {
+    const std::string bytes = bytesAt(offset, sizeof(Value));
+    return littleEndian<Value>(reinterpret_cast<const unsigned char*>(bytes.data()));
+  };
+  constexpr std::uint16_t k16 = 0;
+  constexpr std::uint32_t k32 = 0;
+  constexpr std::uint64_t k64 = 0;
+
+  if (size < 8 || number(0, k16) != kMagic) throw bad("not a file of serialized meshes");
+  const std::uint16_t fileVersion = number(2, k16);
   if (fileVersion != 3 && fileVersion != 4)
     throw bad("version " + std::to_string(fileVersion) + " is not supported, expected 3 or 4");
-
-  const auto count = littleEndian<std::uint32_t>(bytes + text.size() - 4);
-  const std::size_t width = fileVersion == 4 ? 8 : 4;  // of an entry of the table
-  if (count == 0 || count > (text.size() - 4) / width)
+  const std::uint32_t count = number(size - 4, k32);
+  const std::uint64_t width = fileVersion == 4 ? 8 : 4;  // of an entry of the table
+  if (count == 0 || count > (size - 4) / width)
     throw bad("the table at the file's end is damaged: is the file cut short?");
   if (shapeIndex < 0 || static_cast<std::uint32_t>(shapeIndex) >= count)
     throw bad("there is no mesh " + std::to_string(shapeIndex) + ", the file has 0 to " +
               std::to_string(count - 1));
-  const std::size_t table = text.size() - 4 - count * width;
-  const unsigned char* entry = bytes + table + static_cast<std::size_t>(shapeIndex) * width;
-  const std::uint64_t offset =
-      width == 8 ? littleEndian<std::uint64_t>(entry) : littleEndian<std::uint32_t>(entry);
-  if (offset + 4 > table || offset > table) throw bad("the table at the file's end is damaged");
-  if (littleEndian<std::uint16_t>(bytes + offset) != kMagic)
+  const std::uint64_t table = size - 4 - count * width;
+  const auto offsetOf = [&](std::uint64_t index) {
+    const std::uint64_t entry = table + index * width;
+    return width == 8 ? number(entry, k64) : std::uint64_t{number(entry, k32)};
+  };
+  const std::uint64_t offset = offsetOf(static_cast<std::uint64_t>(shapeIndex));
+  if (offset > table || table - offset < 4) throw bad("the table at the file's end is damaged");
+  std::uint64_t end = table;
+  if (static_cast<std::uint32_t>(shapeIndex) + 1 < count) {
+    const std::uint64_t next = offsetOf(static_cast<std::uint64_t>(shapeIndex) + 1);
+    if (next > offset + 4 && next < table) end = next;
+  }
+  if (number(offset, k16) != kMagic)
     throw bad("mesh " + std::to_string(shapeIndex) + " does not start as a mesh does");
-  const auto version = littleEndian<std::uint16_t>(bytes + offset + 2);
+  const std::uint16_t version = number(offset + 2, k16);
 
   const std::string name = path + ", mesh " + std::to_string(shapeIndex);
-  Inflater in(name, text.data() + offset + 4, table - offset - 4);
+  const std::string text = bytesAt(offset + 4, end - offset - 4);
+  Inflater in(name, text.data(), text.size());
   const auto flags = in.read<std::uint32_t>();
   if (version == 4)
     while (in.read<char>() != 0) {  // the mesh's name

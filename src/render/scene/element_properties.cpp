@@ -386,7 +386,7 @@ const Material& ElementProperties::material(int index) const {
 }
 
 void ElementProperties::fail(std::string_view name, const std::string& message) const {
-  fail(name, message, "");
+  fail(name, description() + ": " + message, "");
 }
 
 void ElementProperties::fail(std::string_view name, const std::string& message,

@@ -52,6 +52,7 @@ SceneBounds boundsOf(std::span<const Shape> shapes) {
 
 void Scene::finish() {
   bounds = boundsOf(shapes);
+  prepareLights(lights, shapes);
   std::vector<double> powers;
   for (const Light& light : lights)
     powers.push_back(static_cast<double>(

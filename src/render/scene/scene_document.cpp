@@ -203,7 +203,9 @@ std::unique_ptr<SceneDocument> loadSceneDocument(
 
 std::string resolveFile(const SceneDocument& document, const XmlElement& element,
                         std::string_view attribute) {
-  const std::string name = element.attribute(attribute);
+  std::string name = element.attribute(attribute);
+  if (name.find('/') == std::string::npos)  // as written on Windows
+    std::replace(name.begin(), name.end(), '\\', '/');
   const auto missing = [&](const std::string& why, const std::string& hint) {
     return sourceError(element.place(attribute), why, hint);
   };

@@ -44,6 +44,21 @@ void checkUnused(ReaderContext& context, const XmlElement& element) {
                     "expected an element that belongs here; " + suggestion(element.name, names));
 }
 
+// Leaves out the materials that were only read to be put inside others.
+void keepUsedMaterials(Scene& scene) {
+  std::vector<int> index(scene.materials.size(), -1);
+  for (const Shape& shape : scene.shapes) index[static_cast<std::size_t>(shape.material)] = 0;
+  std::vector<Material> kept;
+  for (std::size_t i = 0; i < index.size(); ++i) {
+    if (index[i] < 0) continue;
+    index[i] = static_cast<int>(kept.size());
+    kept.push_back(std::move(scene.materials[i]));
+  }
+  scene.materials = std::move(kept);
+  for (Shape& shape : scene.shapes)
+    shape.material = index[static_cast<std::size_t>(shape.material)];
+}
+
 }  // namespace
 
 Scene readScene(const std::string& file, const ReadOptions& options) {
@@ -94,6 +109,7 @@ Scene readScene(const std::string& file, const ReadOptions& options) {
   if (scene.lights.empty())
     throw sourceError(document->root.place(), "the scene has no light",
                       "expected an <emitter> that emits something");
+  keepUsedMaterials(scene);
   scene.finish();
   return scene;
 }
