@@ -27,7 +27,8 @@ ImageAttributes readAttributes(const std::string& path);
 
 // Writes by the path's ending: .exr (32-bit float, with the attributes), .hdr, .png (sRGB, 8 bit).
 // Written to a temporary name beside it and renamed. Throws ImageError.
-void writeImage(const std::string& path, const Image& image, const ImageAttributes& attributes = {});
+void writeImage(const std::string& path, const Image& image,
+                const ImageAttributes& attributes = {});
 
 // Finds out early what would make writeImage fail: an unknown ending, a folder that is not there or
 // cannot be written to. Throws ImageError. Leaves nothing behind.
