@@ -80,7 +80,7 @@ std::vector<LightCase> hittable() {
   return cases;
 }
 
-TEST(LightSampling, DirectionsFollowTheDensity) {
+TEST(LightSampling, SlowDirectionsFollowTheDensity) {
   constexpr int kRings = 12, kSectors = 24, kFine = 64;
   constexpr int kSamples = 40000;
   const std::vector<LightCase> cases = hittable();

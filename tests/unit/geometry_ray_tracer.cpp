@@ -236,6 +236,34 @@ TEST(RayTracer, LargeTiltedFloorDoesNotHitItself) {
   }
 }
 
+// Planes through the origin of coordinates, where ulps are no measure.
+TEST(RayTracer, LeavesFromTheOrigin) {
+  const std::vector<Shape> shapes{
+      parallelogram(Vec3f(-1, 0, -1), Vec3f(0, 0, 2), Vec3f(2, 0, 0)),
+      parallelogram(Vec3f(-1, 0.01f, -1), Vec3f(0, 0, 2), Vec3f(2, 0, 0))};
+  const RayTracer tracer(shapes);
+  const Vec3f up(0, 1, 0);
+  for (const Vec3f& direction : {up, glm::normalize(Vec3f(1, 0.1f, 0.3f))}) {
+    EXPECT_EQ(tracer.intersect(Vec3f(0), up, direction).shape, 1u);
+    EXPECT_TRUE(tracer.escapes(Vec3f(0), up, -direction));
+  }
+  EXPECT_TRUE(tracer.visible(Vec3f(0), up, Vec3f(0.1f, 0.01f, 0), up));
+}
+
+// The same hits from each build, also where triangles share an edge or a corner.
+TEST(RayTracer, IsTheSameEachTimeItIsBuilt) {
+  const std::vector<Shape> shapes{ball(50, true), soup(20000, 0.1f, 5)};
+  const RayTracer a(shapes), b(shapes);
+  Random random(4, 5, 6);
+  const auto& mesh = std::get<TriangleMesh>(shapes[0].geometry);
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3f o = randomPoint(random) * 3.0f;
+    const Vec3f target = mesh.positions[random.next() % mesh.positions.size()];
+    const Vec3f d = glm::normalize(target - o);
+    ASSERT_EQ(a.intersect(o, Vec3f(0), d), b.intersect(o, Vec3f(0), d));
+  }
+}
+
 TEST(RayTracer, NothingToHit) {
   const std::vector<Shape> none;
   const RayTracer empty(none);

@@ -28,6 +28,8 @@ constexpr float kRelativeOffset = 0x1p-20f;
 // The same relative to the largest triangle whose plane is not parallel to a coordinate plane:
 // Embree finds such a plane only to a few units in the last place of its corners.
 constexpr float kTriangleOffset = 0x1p-22f;
+// The same relative to the largest coordinate of the scene, for origins at (0, 0, 0).
+constexpr float kLeastOffset = 0x1p-36f;
 // The share of a segment's length by which shadow rays fall short of its end, besides the offset.
 constexpr float kShortening = 0x1p-20f;
 
@@ -173,22 +175,28 @@ void shapeOccluded(const RTCOccludedFunctionNArguments* arguments) {
     RTCRayN_tfar(arguments->ray, 1, 0) = -std::numeric_limits<float>::infinity();
 }
 
-// The largest edge of the triangles that are not parallel to a coordinate plane. (In those that
-// are, Embree's arithmetic is exact.)
-float largestTiltedEdge(std::span<const Shape> shapes) {
-  float largest2 = 0;
+float largestCoordinate(const Vec3f& p) {
+  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+}
+
+// The part of the offset that does not depend on where a ray starts.
+float leastOffset(std::span<const Shape> shapes) {
+  float tiltedEdge2 = 0, coordinate = 0;
   for (const Shape& shape : shapes) {
     const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry);
     if (!mesh) continue;
     for (const glm::uvec3& t : mesh->triangles) {
       const Vec3f &a = mesh->positions[t.x], &b = mesh->positions[t.y], &c = mesh->positions[t.z];
+      coordinate =
+          std::max({coordinate, largestCoordinate(a), largestCoordinate(b), largestCoordinate(c)});
+      // Parallel to a coordinate plane: Embree's arithmetic is exact across it.
       if ((a.x == b.x && a.x == c.x) || (a.y == b.y && a.y == c.y) || (a.z == b.z && a.z == c.z))
         continue;
       const Vec3f e1 = b - a, e2 = c - a, e3 = c - b;
-      largest2 = std::max({largest2, dot(e1, e1), dot(e2, e2), dot(e3, e3)});
+      tiltedEdge2 = std::max({tiltedEdge2, dot(e1, e1), dot(e2, e2), dot(e3, e3)});
     }
   }
-  return std::sqrt(largest2);
+  return std::sqrt(tiltedEdge2) * kTriangleOffset + coordinate * kLeastOffset;
 }
 
 }  // namespace
@@ -206,8 +214,7 @@ struct RayTracer::Impl {
 
   // How far from `origin` rays start along the normal.
   float offsetAt(const Vec3f& origin) const {
-    const float largest = std::max({std::abs(origin.x), std::abs(origin.y), std::abs(origin.z)});
-    return largest * kRelativeOffset + slack;
+    return largestCoordinate(origin) * kRelativeOffset + slack;
   }
   // The origin, moved off its surface to the side that `direction` points to.
   Vec3f leave(const Vec3f& origin, const Vec3f& normal, const Vec3f& direction) const {
@@ -258,7 +265,7 @@ RayTracer::RayTracer(std::span<const Shape> shapes) : impl_(std::make_unique<Imp
   for (std::size_t i = 0; i < shapes.size(); ++i) impl_->attach(i);
   rtcCommitScene(impl_->scene);
   checkDevice(impl_->device);
-  impl_->slack = largestTiltedEdge(shapes) * kTriangleOffset;
+  impl_->slack = leastOffset(shapes);
 }
 
 RayTracer::~RayTracer() = default;
