@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # scripts/fresh-root.sh [--sudo] [FOLDER]: what somebody meets who has Debian 12 and nothing else. Makes a bare Debian 12
-# in FOLDER (build/fresh-root if none is given), clones the last commit into it and runs there the commands of the README's
-# first block that has any: as root, or with --sudo as a user who may use sudo. Before that it checks that a user who may
-# not is told what to install. Needs root and debootstrap; mirror and proxy are those of this machine's apt.
+# in FOLDER (build/fresh-root if none is given), clones the last commit into it and runs there the README's two commands: as
+# root, or with --sudo as a user who may use sudo. Before that it checks that a user who may not is told what to install.
+# Needs root and debootstrap; mirror and proxy are those of this machine's apt.
 set -euo pipefail
 root=$(cd -P -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." >/dev/null && pwd)
 source "$root/scripts/lib.sh"
@@ -61,8 +61,8 @@ if [[ $who == visitor ]]; then
   echo "visitor ALL=(ALL) NOPASSWD: ALL" >"$new/etc/sudoers.d/visitor"
 fi
 
-mapfile -t commands < <(awk '/^```/ { if (inside && found) exit; inside = !inside; next }
-  inside && sub(/^(\$ )?(\.\/)?scripts\//, "scripts/") { found = 1; print }' "$root/README.md" 2>/dev/null)
+# The first lines of the README that call a script.
+mapfile -t commands < <(awk 'sub(/^ *(\$ )?(\.\/)?scripts\//, "scripts/") { print; found = 1; next } found { exit }' "$root/README.md")
 ((${#commands[@]})) || commands=("scripts/run.sh list")
 for command in "${commands[@]}"; do
   say "as $who: $command"
