@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <type_traits>
 
@@ -47,11 +48,16 @@ struct Dual2 {
   template <int Offset, int M>
   static H2MC_AD_INLINE Dual2 lift(const Dual2<T, M>& a) {
     static_assert(Offset >= 0 && M + Offset <= N);
+    using From = typename Dual2<T, M>::Layout;
     Dual2 r(a.v);
-    for (int i = 0; i < M; ++i) {
-      r.setGradient(i + Offset, a.gradient(i));
-      for (int j = 0; j <= i; ++j) r.setHessian(i + Offset, j + Offset, a.hessian(i, j));
-    }
+    const auto copy = [](Vec* to, int toLane, const auto* from, int fromLane,
+                         int count) H2MC_AD_LAMBDA {
+      std::memcpy(reinterpret_cast<char*>(to) + toLane * sizeof(T),
+                  reinterpret_cast<const char*>(from) + fromLane * sizeof(T), count * sizeof(T));
+    };
+    copy(r.g, Offset, a.g, 0, M);
+    for (int i = 0; i < M; ++i)
+      copy(r.h, Layout::position(i + Offset, Offset), a.h, From::position(i, 0), i + 1);
     return r;
   }
 
@@ -317,11 +323,13 @@ struct Dual2 {
 
   /// Whether value, gradient and Hessian are all finite.
   friend inline bool isFinite(const Dual2& a) {
-    T sum = a.v - a.v;  // 0, or NaN if not finite
-    for (int i = 0; i < N; ++i) sum += a.gradient(i) - a.gradient(i);
-    for (int i = 0; i < N; ++i)
-      for (int j = 0; j <= i; ++j) sum += a.hessian(i, j) - a.hessian(i, j);
-    return sum == T(0);
+    // x - x is 0, or NaN if x is not finite. Lanes without an entry are as finite as the entries.
+    Vec sum = (a.v - a.v) - Vec{};
+    for (int k = 0; k < Layout::kGradient; ++k) sum += a.g[k] - a.g[k];
+    for (int k = 0; k < Layout::kHessian; ++k) sum += a.h[k] - a.h[k];
+    T total = 0;
+    for (int k = 0; k < Layout::kWidth; ++k) total += sum[k];
+    return total == T(0);
   }
 
  private:

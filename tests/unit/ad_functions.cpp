@@ -12,10 +12,10 @@ constexpr Extended kPi = 3.14159265358979323846264338327950288L;
 // for every size here and in ad_dual2.cpp.
 template <class F>
 void forSomeSizes(F&& f) {
-  f(Case<float, 2>{});
-  f(Case<float, 7>{});
-  f(Case<double, 6>{});
-  f(Case<double, 17>{});
+  callWith<Case<float, 2>>(f);
+  callWith<Case<float, 7>>(f);
+  callWith<Case<double, 6>>(f);
+  callWith<Case<double, 17>>(f);
 }
 
 TEST(AdFunctions, ChainRuleOfOneArgument) {

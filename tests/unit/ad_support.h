@@ -26,7 +26,7 @@ struct Expected {
 };
 
 template <class T, int N>
-Expected expand(const Dual2<T, N>& a) {
+[[gnu::noinline]] Expected expand(const Dual2<T, N>& a) {
   Expected e;
   e.v = a.v;
   for (int i = 0; i < N; ++i) {
@@ -66,7 +66,8 @@ inline Expected chainOf(const Expected& a, const Expected& b, const Partials& p)
 /// Fails where `got` is further from `want` than `ulps` times the precision of T, relative to the
 /// largest entry of the same order.
 template <class T, int N>
-void expectNear(const Dual2<T, N>& got, const Expected& want, Extended ulps, const char* what) {
+[[gnu::noinline]] void expectNear(const Dual2<T, N>& got, const Expected& want, Extended ulps,
+                                  const char* what) {
   const Extended eps = ulps * std::numeric_limits<T>::epsilon();
   Extended gradientScale = 0, hessianScale = 0;
   for (int i = 0; i < N; ++i) {
@@ -86,7 +87,7 @@ void expectNear(const Dual2<T, N>& got, const Expected& want, Extended ulps, con
 
 /// Fails unless every derivative is exactly zero and the value is `value`.
 template <class T, int N>
-void expectConstant(const Dual2<T, N>& got, T value, const char* what) {
+[[gnu::noinline]] void expectConstant(const Dual2<T, N>& got, T value, const char* what) {
   EXPECT_EQ(got.v, value) << what;
   for (int i = 0; i < N; ++i) {
     EXPECT_EQ(got.gradient(i), T(0)) << what << " N=" << N << " gradient " << i;
@@ -97,7 +98,7 @@ void expectConstant(const Dual2<T, N>& got, T value, const char* what) {
 
 /// A dual with value `value` and random derivatives in [-1, 1].
 template <class T, int N>
-Dual2<T, N> randomDual(T value, std::mt19937& random) {
+[[gnu::noinline]] Dual2<T, N> randomDual(T value, std::mt19937& random) {
   std::uniform_real_distribution<T> uniform(-1, 1);
   Dual2<T, N> a(value);
   for (int i = 0; i < N; ++i) {
@@ -113,12 +114,18 @@ struct Case {
   static constexpr int kSize = N;
 };
 
+// One function for each case: compilers take far longer over one that holds them all.
+template <class C, class F>
+[[gnu::noinline]] void callWith(F& f) {
+  f(C{});
+}
+
 /// Calls f(Case<T, N>{}) for each N in 1 .. Last and T float and double.
 template <int Last, class F>
 void forEachSize(F&& f) {
   [&]<int... I>(std::integer_sequence<int, I...>) {
-    (f(Case<float, I + 1>{}), ...);
-    (f(Case<double, I + 1>{}), ...);
+    (callWith<Case<float, I + 1>>(f), ...);
+    (callWith<Case<double, I + 1>>(f), ...);
   }
   (std::make_integer_sequence<int, Last>{});
 }
