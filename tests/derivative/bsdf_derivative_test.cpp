@@ -41,8 +41,8 @@ TEST(BsdfDerivative, DensityIsTheInverseJacobianOfSampling) {
         [&](const auto& b) {
           for (int trial = 0; trial < 60; ++trial) {
             const float side = c.entersBack && random.uniform() < 0.5f ? -1.0f : 1.0f;
-            const Vec3f wi = direction(side * (0.05f + 0.94f * random.uniform()),
-                                       6 * random.uniform());
+            const Vec3f wi =
+                direction(side * (0.05f + 0.94f * random.uniform()), 6 * random.uniform());
             const Vec3<double> in = glm::normalize(Vec3<double>(wi));
             const float u0 = 0.01f + 0.97f * random.uniform(), u1 = random.uniform();
             const int lobe = b.chooseLobe(uv, wi, u0, u1, random.uniform());
@@ -50,8 +50,7 @@ TEST(BsdfDerivative, DensityIsTheInverseJacobianOfSampling) {
             const Vec3<D> wo = b.template sample<D>(Vec2<D>(D(uv.x), D(uv.y)), {in.x, in.y, in.z},
                                                     lobe, D::variable(u0, 0), D::variable(u1, 1));
             const Vec3<double> out = value3(wo);
-            const double pdf =
-                b.template lobePdf<double>(Vec2<double>(uv), in, out, lobe);
+            const double pdf = b.template lobePdf<double>(Vec2<double>(uv), in, out, lobe);
             if (!(pdf > 0)) continue;
             EXPECT_NEAR(glm::length(out), 1, 1e-12);
             const Vec3<double> d0(wo.x.gradient(0), wo.y.gradient(0), wo.z.gradient(0));
@@ -81,8 +80,8 @@ TEST(BsdfDerivative, MatchesFiniteDifferences) {
         [&](const auto& b) {
           for (int trial = 0; trial < 12; ++trial) {
             const float side = c.entersBack && random.uniform() < 0.5f ? -1.0f : 1.0f;
-            const Vec3f wi = direction(side * (0.2f + 0.75f * random.uniform()),
-                                       6 * random.uniform());
+            const Vec3f wi =
+                direction(side * (0.2f + 0.75f * random.uniform()), 6 * random.uniform());
             const float u0 = 0.05f + 0.85f * random.uniform(), u1 = random.uniform();
             const int lobe = b.chooseLobe(uv, wi, u0, u1, random.uniform());
             if (b.isDelta(lobe)) continue;
@@ -93,11 +92,10 @@ TEST(BsdfDerivative, MatchesFiniteDifferences) {
             for (int which = 0; which < 3; ++which) {
               const auto f = [&](const auto* x) {
                 using T = std::remove_cvref_t<decltype(x[0])>;
-                const auto e = b.template evaluate<T>(Vec2<T>(T(uv.x), T(uv.y)),
-                                                      spherical<T>(x[0], x[1]),
-                                                      spherical<T>(x[2], x[3]));
-                return T(ad::log(which == 0 ? luminance(e.value)
-                                            : (which == 1 ? e.pdf : e.pdfReverse)));
+                const auto e = b.template evaluate<T>(
+                    Vec2<T>(T(uv.x), T(uv.y)), spherical<T>(x[0], x[1]), spherical<T>(x[2], x[3]));
+                return T(
+                    ad::log(which == 0 ? luminance(e.value) : (which == 1 ? e.pdf : e.pdfReverse)));
               };
               D x[4];
               for (int i = 0; i < 4; ++i) x[i] = D::variable(at[i], i);
@@ -110,6 +108,9 @@ TEST(BsdfDerivative, MatchesFiniteDifferences) {
                 return f(p);
               };
               ++checked;
+              // The third derivative of the coat's spline jumps at its knots.
+              using B = std::remove_cvref_t<decltype(b)>;
+              const double tolerance = std::is_same_v<B, RoughPlastic> ? 4e-3 : 1e-4;
               double scale = 1;
               for (int i = 0; i < 4; ++i)
                 for (int j = 0; j <= i; ++j) scale = std::max(scale, std::abs(y.hessian(i, j)));
@@ -117,7 +118,8 @@ TEST(BsdfDerivative, MatchesFiniteDifferences) {
                 // Five points in each direction: errors of order h^4.
                 const double h = 2e-4;
                 const double slope = (8 * (g(i, h, i, 0) - g(i, -h, i, 0)) -
-                                      (g(i, 2 * h, i, 0) - g(i, -2 * h, i, 0))) / (12 * h);
+                                      (g(i, 2 * h, i, 0) - g(i, -2 * h, i, 0))) /
+                                     (12 * h);
                 EXPECT_NEAR(y.gradient(i), slope, 1e-6 * scale) << c.name << " " << which;
                 for (int j = 0; j <= i; ++j) {
                   const auto mixed = [&](double s) {
@@ -126,7 +128,7 @@ TEST(BsdfDerivative, MatchesFiniteDifferences) {
                   };
                   // At i = j the steps add up: (f(2s) - 2 f(0) + f(-2s)) / (2s)^2.
                   const double second = (4 * mixed(h) - mixed(2 * h)) / 3;
-                  EXPECT_NEAR(y.hessian(i, j), second, 1e-4 * scale)
+                  EXPECT_NEAR(y.hessian(i, j), second, tolerance * scale)
                       << c.name << " " << which << " (" << i << ", " << j << ")";
                 }
               }
@@ -159,17 +161,17 @@ TEST(BsdfDerivative, FiniteInFloatUnderStrain) {
           for (int trial = 0; trial < 300; ++trial) {
             const float side = c.entersBack && random.uniform() < 0.5f ? -1.0f : 1.0f;
             const float grazing = random.uniform() < 0.3f ? 1e-3f : 1.0f;
-            const Vec3f wi = direction(side * std::max(1e-6f, grazing * random.uniform()),
-                                       6 * random.uniform());
-            const float u0 = random.uniform() < 0.1f ? 0x1p-24f * (random.next() % 4)
-                                                     : random.uniform();
+            const Vec3f wi =
+                direction(side * std::max(1e-6f, grazing * random.uniform()), 6 * random.uniform());
+            const float u0 =
+                random.uniform() < 0.1f ? 0x1p-24f * (random.next() % 4) : random.uniform();
             const float u1 = random.uniform();
             const int lobe = b.chooseLobe(uv, wi, u0, u1, random.uniform());
             const Vec3<D> in(D::variable(wi.x, 0), D::variable(wi.y, 1), D(wi.z));
             const Vec2<D> duv{D(uv.x), D(uv.y)};
             if (b.isDelta(lobe)) continue;
-            const Vec3<D> wo = b.template sample<D>(duv, in, lobe, D::variable(u0, 2),
-                                                    D::variable(u1, 3));
+            const Vec3<D> wo =
+                b.template sample<D>(duv, in, lobe, D::variable(u0, 2), D::variable(u1, 3));
             const auto e = b.template evaluate<D>(duv, in, wo);
             EXPECT_TRUE(std::isfinite(value(e.value.x)) && std::isfinite(value(e.pdf)) &&
                         std::isfinite(value(e.pdfReverse)))

@@ -92,6 +92,8 @@ inline const std::vector<BsdfCase>& glossyCases() {
       {"roughconductor ggx 0.1", roughConductor(facets(kGgx, 0.1f), gold())},
       {"roughconductor beckmann 0.4", roughConductor(facets(kBeckmann, 0.4f), gold())},
       {"roughconductor beckmann 0.08", roughConductor(facets(kBeckmann, 0.08f), gold())},
+      {"roughconductor ggx 0.01", roughConductor(facets(kGgx, 0.01f), gold())},
+      {"roughconductor beckmann 0.01", roughConductor(facets(kBeckmann, 0.01f), gold())},
       {"roughconductor none", roughConductor(facets(kGgx, 0.3f))},
       {"roughdielectric ggx 0.4", roughDielectric(facets(kGgx, 0.4f), 1.5f), true},
       {"roughdielectric ggx 0.1", roughDielectric(facets(kGgx, 0.1f), 1.5f), true},

@@ -103,8 +103,9 @@ inline ChiSquareVerdict chiSquareTest(const std::vector<double>& observed,
   v.degrees = cells - 1;
   v.pValue = v.degrees > 0 ? chiSquareTail(v.statistic, v.degrees) : 1;
   v.passed = !impossible && v.pValue >= sidak(kFalseAlarmRate, tests);
-  message << "chi-square " << v.statistic << " at " << v.degrees << " degrees of freedom, p = "
-          << v.pValue << "; worst cell " << worstCell << " of " << expected.size();
+  message << "chi-square " << v.statistic << " at " << v.degrees
+          << " degrees of freedom, p = " << v.pValue << "; worst cell " << worstCell << " of "
+          << expected.size();
   if (worstCell < expected.size())
     message << ": " << observed[worstCell] << " draws, expected " << expected[worstCell];
   v.message = message.str();
@@ -141,8 +142,8 @@ class DirectionHistogram {
     double sum = 0, total = 0;
     for (int i = 0; i < rings_; ++i)
       for (int j = 0; j < sectors_; ++j) {
-        const double mass = integral(density, ringEdge(i), ringEdge(i + 1), sectorEdge(j),
-                                     sectorEdge(j + 1));
+        const double mass =
+            integral(density, ringEdge(i), ringEdge(i + 1), sectorEdge(j), sectorEdge(j + 1));
         expected.push_back(mass * draws_);
         sum += mass;
         total += counts_[expected.size() - 1];
@@ -185,8 +186,7 @@ class DirectionHistogram {
       const double theta = t0 + (t1 - t0) * x[i], s = std::sin(theta), c = std::cos(theta);
       for (int j = 0; j < 4; ++j) {
         const double phi = p0 + (p1 - p0) * x[j];
-        sum += w[i] * w[j] * s *
-               density(frame_.toWorld({s * std::cos(phi), s * std::sin(phi), c}));
+        sum += w[i] * w[j] * s * density(frame_.toWorld({s * std::cos(phi), s * std::sin(phi), c}));
       }
     }
     return sum * (t1 - t0) * (p1 - p0);

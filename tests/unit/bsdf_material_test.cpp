@@ -42,8 +42,7 @@ TEST(BsdfMaterial, TwosidedFlipsBothDirections) {
   EXPECT_TRUE(lobe.back);
   const Vec3f sampled = sampleMaterial<float>(bsdfs, same, kUv, flipped(wi), lobe, 0.3f, 0.4f);
   const LobeId frontLobe = chooseLobe(bsdfs, same, kUv, wi, 0.3f, 0.4f, 0.1f);
-  EXPECT_EQ(flipped(sampled),
-            sampleMaterial<float>(bsdfs, same, kUv, wi, frontLobe, 0.3f, 0.4f));
+  EXPECT_EQ(flipped(sampled), sampleMaterial<float>(bsdfs, same, kUv, wi, frontLobe, 0.3f, 0.4f));
   Vec2f u;
   ASSERT_TRUE(invertLobe(bsdfs, same, kUv, flipped(wi), sampled, lobe, u));
   EXPECT_NEAR(u.x, 0.3f, 1e-5);
@@ -142,16 +141,18 @@ TEST(BsdfPlugins, DefaultsAreMitsubas) {
 TEST(BsdfPlugins, ReadTheirParameters) {
   const auto mirror = std::get<Conductor>(make("conductor", {{"material", "none"}}));
   EXPECT_TRUE(mirror.index.mirror);
-  const auto glass = std::get<RoughDielectric>(
-      make("roughdielectric", {{"intIOR", "1.5"}, {"extIOR", "Water"}, {"distribution", "ggx"},
-                               {"alphaU", 0.3f}, {"alphaV", 0.3f}}));
+  const auto glass = std::get<RoughDielectric>(make("roughdielectric", {{"intIOR", "1.5"},
+                                                                        {"extIOR", "Water"},
+                                                                        {"distribution", "ggx"},
+                                                                        {"alphaU", 0.3f},
+                                                                        {"alphaV", 0.3f}}));
   EXPECT_FLOAT_EQ(glass.eta, 1.5f / 1.333f);
   EXPECT_EQ(glass.facets.distribution, kGgx);
   EXPECT_EQ(glass.facets.alpha, 0.3f);
   EXPECT_EQ(std::get<RoughConductor>(make("roughconductor", {{"alpha", 0.0f}})).facets.alpha,
             1e-4f);
-  const auto metal = std::get<Conductor>(
-      make("conductor", {{"eta", Rgbf(2)}, {"k", Rgbf(3)}, {"extEta", "1"}}));
+  const auto metal =
+      std::get<Conductor>(make("conductor", {{"eta", Rgbf(2)}, {"k", Rgbf(3)}, {"extEta", "1"}}));
   EXPECT_EQ(metal.index.eta, Rgbf(2));
   EXPECT_EQ(metal.index.k, Rgbf(3));
 

@@ -237,6 +237,25 @@ TEST(Bsdf, PhongByHand) {
   EXPECT_NEAR(e.pdf, 0.625 * 21 / (2 * kPi) * lobe + 0.375 * wo.z / kPi, 1e-5);
 }
 
+// A base of one colour is summed up when it is made, a picture of that colour at every evaluation.
+TEST(Bsdf, TexturedBaseIsTheSameAsAConstantOne) {
+  auto image = std::make_shared<Image>(1, 1);
+  image->at(0, 0) = Rgbf(0.6f, 0.3f, 0.1f);
+  BitmapTexture picture;
+  picture.image = image;
+  for (const bool nonlinear : {false, true}) {
+    const LayeredDiffuse constant(constantTexture(image->at(0, 0)), 0.9f, 0.6, 1.5, nonlinear);
+    const LayeredDiffuse textured(std::make_shared<const Texture>(picture), 0.9f, 0.6, 1.5,
+                                  nonlinear);
+    const Rgbf a = constant.modulated<float>(kUv, 0.7f), b = textured.modulated<float>(kUv, 0.7f);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_FLOAT_EQ(a[i], b[i]);
+      const double d = 0.9 * image->at(0, 0)[i];
+      EXPECT_NEAR(a[i], 0.7 * d / (1 - (nonlinear ? d : 1) * 0.6), 1e-6);
+    }
+  }
+}
+
 TEST(Bsdf, RoughTransmittanceIsTheSmoothOneWithoutRoughness) {
   for (const auto d : {kGgx, kBeckmann}) {
     const RoughTransmittance t(facets(d, 1e-3f), 1.5);

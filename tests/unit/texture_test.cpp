@@ -1,10 +1,11 @@
+#include "render/texture/texture.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "bsdf_properties.h"
 #include "render/image/image_io.h"
-#include "render/texture/texture.h"
 
 namespace h2mc {
 namespace {
@@ -88,10 +89,10 @@ TEST(Texture, DifferentiatesWithinATexel) {
   EXPECT_NEAR(d.v, at(u, v), 1e-12);
   EXPECT_NEAR(d.gradient(0), (at(u + h, v) - at(u - h, v)) / (2 * h), 1e-6);
   EXPECT_NEAR(d.gradient(1), (at(u, v + h) - at(u, v - h)) / (2 * h), 1e-6);
-  EXPECT_NEAR(d.hessian(0, 1),
-              (at(u + h, v + h) - at(u + h, v - h) - at(u - h, v + h) + at(u - h, v - h)) /
-                  (4 * h * h),
-              1e-5);
+  EXPECT_NEAR(
+      d.hessian(0, 1),
+      (at(u + h, v + h) - at(u + h, v - h) - at(u - h, v + h) + at(u - h, v - h)) / (4 * h * h),
+      1e-5);
   EXPECT_EQ(d.hessian(0, 0), 0);
 }
 
@@ -119,8 +120,11 @@ TEST(Texture, PluginsReadTheirParameters) {
   image.at(0, 0) = Rgbf(0.25f);
   image.at(1, 0) = Rgbf(3);
   writeImage(path, image);
-  const auto first = make("bitmap", {{"filename", path}, {"uvscale", 100.0f}, {"wrapMode", "clamp"},
-                                     {"wrapModeV", "mirror"}, {"filterType", "nearest"}});
+  const auto first = make("bitmap", {{"filename", path},
+                                     {"uvscale", 100.0f},
+                                     {"wrapMode", "clamp"},
+                                     {"wrapModeV", "mirror"},
+                                     {"filterType", "nearest"}});
   const auto second = make("bitmap", {{"filename", path}});
   std::filesystem::remove(path);
   const auto& a = std::get<BitmapTexture>(*first);

@@ -41,7 +41,8 @@ namespace h2mc {
 //   int chooseLobe(const Vec2f& uv, const Vec3f& wi, float u0, float u1, float choice);
 //
 //   // The direction that the non-delta lobe draws from (u0, u1) in [0, 1)^2. u1 is an azimuth: it
-//   // wraps. May return a direction that evaluate() gives zero for.
+//   // wraps. May return a direction that evaluate() gives zero for: noDirection() where the draw
+//   // means nothing, such as a facet seen from behind.
 //   template <class T> Vec3<T> sample(const Vec2<T>& uv, const Vec3<T>& wi, int lobe, const T& u0,
 //                                     const T& u1);
 //
@@ -49,12 +50,13 @@ namespace h2mc {
 //   // lobe included. Zero for delta lobes.
 //   template <class T> T lobePdf(const Vec2<T>& uv, const Vec3<T>& wi, const Vec3<T>& wo, int lobe);
 //
-//   // (u0, u1) with sample(..., u0, u1) == wo; false when the lobe cannot draw wo. 
+//   // (u0, u1) with sample(..., u0, u1) == wo; false when the lobe cannot draw wo.
 //   bool invert(const Vec2f& uv, const Vec3f& wi, const Vec3f& wo, int lobe, Vec2f& u);
 //
 //   // Delta lobes: the direction, the coefficient of radiance transport from wo to wi (Fresnel
 //   // reflectance, or transmittance with (eta_i/eta_o)^2; no cosine, nothing divided by), the same
 //   // for importance (without the eta factor), and the probability that chooseLobe picks it.
+//   // DeltaSample::none() where the lobe scatters nothing.
 //   template <class T> DeltaSample<T> sampleDelta(const Vec2<T>& uv, const Vec3<T>& wi, int lobe);
 //
 //   // A number that orders BSDFs by how concentrated they are: the lobe's width in radians
@@ -66,12 +68,12 @@ using Bsdf = std::variant<Diffuse, Phong, RoughConductor, RoughDielectric, Condu
 
 // A surface's material: one BSDF a side, and an opacity. `twosided` is front == back.
 struct Material {
-  std::string name;               // id or plugin name, for messages
-  std::string plugin;             // as the scene named it
-  int front = -1;                 // index into Scene::bsdfs; -1 scatters nothing
-  int back = -1;                  // for wi.z < 0; -1: no twosided, the front BSDF sees wi.z < 0 itself
+  std::string name;    // id or plugin name, for messages
+  std::string plugin;  // as the scene named it
+  int front = -1;      // index into Scene::bsdfs; -1 scatters nothing
+  int back = -1;       // for wi.z < 0; -1: no twosided, the front BSDF sees wi.z < 0 itself
   bool twosided = false;
-  TexturePtr opacity;             // null: opaque. Otherwise the share of light that meets the BSDF
+  TexturePtr opacity;  // null: opaque. Otherwise the share of light that meets the BSDF
 };
 
 // Every BSDF a scene file can name. twosided and mask, which make no BSDF of their own, are read by

@@ -20,19 +20,24 @@ constexpr Parameter kTransmittance = {"specularTransmittance", kTexture, "1",
 constexpr Parameter kDistribution = {"distribution", kString, "beckmann",
                                      "of the facets' normals (phong and as are not supported)",
                                      "beckmann|ggx|phong|as"};
-constexpr Parameter kAlpha = {"alpha", kNumber, "0.1", "roughness: the facets' root mean square slope"};
+constexpr Parameter kAlpha = {"alpha", kNumber, "0.1",
+                              "roughness: the facets' root mean square slope"};
 constexpr Parameter kAlphaU = {"alphaU", kNumber, "0.1", "roughness along u, the same as along v"};
 constexpr Parameter kAlphaV = {"alphaV", kNumber, "0.1", "roughness along v, the same as along u"};
-constexpr Parameter kSampleVisible = {"sampleVisible", kBoolean, "true",
+constexpr Parameter kSampleVisible = {"sampleVisible",
+                                      kBoolean,
+                                      "true",
                                       "how other renderers sample; no effect on the image",
-                                      "", "", true};
-constexpr Parameter kExteriorIndex = {"extIOR", kString, "air",
-                                      "refractive index outside: a number or a name", "", "ext_ior"};
-constexpr Parameter kGlassIndex = {"intIOR", kString, "bk7",
-                                   "refractive index inside: a number or a name", "", "int_ior"};
-constexpr Parameter kPlasticIndex = {"intIOR", kString, "polypropylene",
-                                     "refractive index of the coat: a number or a name", "",
-                                     "int_ior"};
+                                      "",
+                                      "",
+                                      true};
+constexpr Parameter kExteriorIndex = {
+    "extIOR", kString, "air", "refractive index outside: a number or a name", "", "ext_ior"};
+constexpr Parameter kGlassIndex = {
+    "intIOR", kString, "bk7", "refractive index inside: a number or a name", "", "int_ior"};
+constexpr Parameter kPlasticIndex = {
+    "intIOR", kString,  "polypropylene", "refractive index of the coat: a number or a name",
+    "",       "int_ior"};
 constexpr Parameter kMaterialName = {"material", kString, "Cu",
                                      "a metal's name, or none: reflects everything"};
 constexpr Parameter kEta = {"eta", kColor, "", "refractive index; the material's by default"};
@@ -51,21 +56,21 @@ constexpr Parameter kPhongParameters[] = {
     {"specularReflectance", kTexture, "0.2", "reflectance of the glossy part"},
     {"exponent", kNumber, "30", "of the cosine around the mirror direction"},
     kConserve};
-constexpr Parameter kConductorParameters[] = {kMaterialName, kEta,     kK,
+constexpr Parameter kConductorParameters[] = {kMaterialName, kEta,      kK,
                                               kExteriorEta,  kSpecular, kConserve};
 constexpr Parameter kRoughConductorParameters[] = {
-    kDistribution, kAlpha, kAlphaU,   kAlphaV,        kMaterialName, kEta,
-    kK,            kExteriorEta, kSpecular, kSampleVisible, kConserve};
+    kDistribution, kAlpha,    kAlphaU,        kAlphaV,  kMaterialName, kEta, kK,
+    kExteriorEta,  kSpecular, kSampleVisible, kConserve};
 constexpr Parameter kDielectricParameters[] = {kGlassIndex, kExteriorIndex, kSpecular,
                                                kTransmittance, kConserve};
 constexpr Parameter kRoughDielectricParameters[] = {
-    kDistribution, kAlpha,    kAlphaU,        kAlphaV,        kGlassIndex,
+    kDistribution,  kAlpha,    kAlphaU,        kAlphaV,        kGlassIndex,
     kExteriorIndex, kSpecular, kTransmittance, kSampleVisible, kConserve};
 constexpr Parameter kPlasticParameters[] = {kPlasticIndex, kExteriorIndex, kDiffuseReflectance,
                                             kSpecular,     kNonlinear,     kConserve};
 constexpr Parameter kRoughPlasticParameters[] = {
-    kDistribution,       kAlpha,    kPlasticIndex,  kExteriorIndex,
-    kDiffuseReflectance, kSpecular, kNonlinear,     kSampleVisible, kConserve};
+    kDistribution, kAlpha,     kPlasticIndex,  kExteriorIndex, kDiffuseReflectance,
+    kSpecular,     kNonlinear, kSampleVisible, kConserve};
 constexpr Parameter kMaskParameters[] = {
     {"opacity", kTexture, "0.5", "share of light that meets the nested BSDF; the rest goes on"},
     kConserve};
@@ -75,7 +80,7 @@ float largest(const Rgbf& c) { return std::max({c.x, c.y, c.z}); }
 // By how much Mitsuba scales reflectances whose sum may exceed 1.
 float energyScale(const Properties& p, const Rgbf& highest) {
   return largest(highest) > 1 && p.boolean("ensureEnergyConservation") ? 0.99f / largest(highest)
-                                                                        : 1;
+                                                                       : 1;
 }
 
 float refractiveIndex(const Properties& p, std::string_view name) {
@@ -118,8 +123,7 @@ Microfacet readFacets(const Properties& p, bool anisotropic) {
                                "\" is not supported; there are beckmann and ggx");
   facets.alpha = roughness(p, "alpha");
   if (anisotropic && (p.given("alphaU") || p.given("alphaV"))) {
-    if (p.given("alpha"))
-      p.fail("alpha", "give either alpha, or alphaU and alphaV");
+    if (p.given("alpha")) p.fail("alpha", "give either alpha, or alphaU and alphaV");
     facets.alpha = roughness(p, "alphaU");
     if (facets.alpha != roughness(p, "alphaV"))
       p.fail("alphaV", "anisotropic roughness is not supported: alphaU and alphaV must be equal");

@@ -6,8 +6,8 @@
 namespace h2mc {
 
 struct ConductorIndex {
-  Rgbf eta{0}, k{1};  // relative to the medium outside
-  bool mirror = true; // eta = 0: reflects everything
+  Rgbf eta{0}, k{1};   // relative to the medium outside
+  bool mirror = true;  // eta = 0: reflects everything
 
   // reflectance * F(c), c = cosine of incidence.
   template <class T>

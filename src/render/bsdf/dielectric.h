@@ -55,7 +55,9 @@ struct Dielectric {
     const T cosFar = ad::sqrt(cosFar2);
     const Rgb<T> r = modulate<T>(*specularTransmittance, uv, t * S(transmittanceScale));
     return {{wi.x * -inverse, wi.y * -inverse, inside ? cosFar : T(-cosFar)},
-            r * (inverse * inverse), r, t};
+            r * (inverse * inverse),
+            r,
+            t};
   }
   float width(int) const { return 0; }
   Rgbf albedo() const { return average(*specularTransmittance) * transmittanceScale; }

@@ -61,10 +61,10 @@ T fresnelConductor(const T& c, Scalar<T> eta, Scalar<T> k) {
     const U cos2 = c1 * c1;
     const U sin2 = S(1) - cos2;
     const S product = eta * k;
-    const U d = (eta - k) * (eta + k) - sin2;                             // a^2 - b^2
-    const U sum = ad::sqrt(U(d * d + S(4) * product * product));          // a^2 + b^2
+    const U d = (eta - k) * (eta + k) - sin2;                     // a^2 - b^2
+    const U sum = ad::sqrt(U(d * d + S(4) * product * product));  // a^2 + b^2
     if (!(value(sum) > 0)) return U(S(1));
-    const U a = value(d) > 0 ? U(ad::sqrt(U((sum + d) * S(0.5))))         // a b = eta k
+    const U a = value(d) > 0 ? U(ad::sqrt(U((sum + d) * S(0.5))))  // a b = eta k
                              : U(product / ad::sqrt(U((sum - d) * S(0.5))));
     const U u = sum + cos2, v = a * c1 * S(2);
     const U s = (u - v) / (u + v);

@@ -7,17 +7,20 @@
 namespace h2mc {
 
 struct LayeredDiffuse {
-  TexturePtr reflectance;        // of the base; linear already if `summed`
-  float scale = 1;               // of the reflectance, to conserve energy
-  float internalReflectance = 0; // of the coat from inside, for diffuse light
-  float inverseEta2 = 1;         // 1 / eta^2: radiance spreads as it leaves the coat
-  bool nonlinear = false;        // colour shifts by repeated scattering
+  TexturePtr reflectance;         // of the base; linear already if `summed`
+  float scale = 1;                // of the reflectance, to conserve energy
+  float internalReflectance = 0;  // of the coat from inside, for diffuse light
+  float inverseEta2 = 1;          // 1 / eta^2: radiance spreads as it leaves the coat
+  bool nonlinear = false;         // colour shifts by repeated scattering
   bool summed = false;
 
   LayeredDiffuse() = default;
   LayeredDiffuse(TexturePtr texture, float s, double internal, double eta, bool shifts)
-      : reflectance(std::move(texture)), scale(s), internalReflectance(float(internal)),
-        inverseEta2(float(1 / (eta * eta))), nonlinear(shifts) {
+      : reflectance(std::move(texture)),
+        scale(s),
+        internalReflectance(float(internal)),
+        inverseEta2(float(1 / (eta * eta))),
+        nonlinear(shifts) {
     if (const auto* constant = std::get_if<ConstantTexture>(reflectance.get())) {
       const Vec3<double> d = Vec3<double>(constant->color) * double(scale);
       reflectance = constantTexture(Rgbf(d * series(d, internal)));

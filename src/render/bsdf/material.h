@@ -130,8 +130,8 @@ inline bool invertLobe(std::span<const Bsdf> bsdfs, const Material& material, co
 }
 
 template <class T>
-DeltaSample<T> sampleDelta(std::span<const Bsdf> bsdfs, const Material& material,
-                           const Vec2<T>& uv, const Vec3<T>& wi, LobeId lobe) {
+DeltaSample<T> sampleDelta(std::span<const Bsdf> bsdfs, const Material& material, const Vec2<T>& uv,
+                           const Vec3<T>& wi, LobeId lobe) {
   if (lobe.null) {
     if (!material.opacity) return DeltaSample<T>::none();
     const Rgb<T> opacity = evaluate<T>(*material.opacity, uv);
@@ -167,9 +167,8 @@ inline bool hasNonDelta(std::span<const Bsdf> bsdfs, const Material& material, f
 // Whether light can go on to the other side.
 inline bool transmits(std::span<const Bsdf> bsdfs, const Material& material) {
   if (material.opacity) return true;
-  return material.front >= 0 &&
-         std::visit([](const auto& b) { return b.transmits(); },
-                    bsdfs[static_cast<std::size_t>(material.front)]);
+  return material.front >= 0 && std::visit([](const auto& b) { return b.transmits(); },
+                                           bsdfs[static_cast<std::size_t>(material.front)]);
 }
 
 // Width of the lobe in radians; 0 for delta lobes.

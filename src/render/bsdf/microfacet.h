@@ -38,15 +38,16 @@ struct Microfacet {
   T density(const Vec3<T>& h, const T& h2) const {
     using S = Scalar<T>;
     const S a2 = S(alpha) * S(alpha);
-    const T planar = h.x * h.x + h.y * h.y, vertical = h.z * h.z;
+    using ad::dot2;
+    const T planar = dot2(h.x, h.x, h.y, h.y), vertical = ad::square(h.z);
     if (distribution == FacetDistribution::kGgx) {
       const T ratio = h2 / (vertical + planar * (S(1) / a2));
-      return ratio * ratio * (kInvPiOf<T> / a2);
+      return ad::square(ratio) * (kInvPiOf<T> / a2);
     }
     const T exponent = planar / vertical * (S(-1) / a2);
     if (!(value(exponent) > S(-80))) return T(0);
     const T ratio = h2 / vertical;
-    return ad::exp(exponent) * (ratio * ratio) * (kInvPiOf<T> / a2);
+    return ad::exp(exponent) * ad::square(ratio) * (kInvPiOf<T> / a2);
   }
 
   // G1(w) / cos(w) as a function of c = cos(w) >= 0; finite at c = 0. The facet must not be seen
@@ -79,12 +80,13 @@ struct Microfacet {
     if (!(value(quarterD) > 0)) return FacetReflection<T>::none();
     const T gi = maskingOverCos(wi.z), go = maskingOverCos(wo.z);
     FacetReflection<T> r;
-    r.cosHalf = ad::sqrt(h2) * S(0.5);
+    r.cosHalf = ad::sqrt(T(h2 * S(0.25)));
     r.pdf = quarterD * gi;
     r.value = r.pdf * go * wo.z;
     r.pdfReverse = quarterD * go;
     // D(m) cos(m) / (4 wi.m), the same both ways.
-    if (distribution == FacetDistribution::kBeckmann) r.pdf = r.pdfReverse = quarterD * h.z * (S(2) / h2);
+    if (distribution == FacetDistribution::kBeckmann)
+      r.pdf = r.pdfReverse = quarterD * h.z * (S(2) / h2);
     return r;
   }
 

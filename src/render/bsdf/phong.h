@@ -15,8 +15,8 @@ struct Phong {
   static constexpr int kSpecular = 0, kDiffuse = 1;
   TexturePtr diffuse, specular;
   float exponent = 30;
-  float scale = 1;            // of both reflectances, to conserve energy
-  float specularWeight = 0;   // probability of the specular lobe
+  float scale = 1;           // of both reflectances, to conserve energy
+  float specularWeight = 0;  // probability of the specular lobe
 
   bool isDelta(int) const { return false; }
   bool hasNonDelta() const { return true; }
@@ -61,8 +61,7 @@ struct Phong {
   bool invert(const Vec2f&, const Vec3f& wi, const Vec3f& wo, int lobe, Vec2f& u) const {
     if (!(wi.z > 0)) return false;
     if (lobe == kDiffuse) return invertCosine(wo, u);
-    const auto frame = Frame<double>::fromNormal(
-        glm::normalize(Vec3<double>(-wi.x, -wi.y, wi.z)));
+    const auto frame = Frame<double>::fromNormal(glm::normalize(Vec3<double>(-wi.x, -wi.y, wi.z)));
     const Vec3<double> local = frame.toLocal(glm::normalize(Vec3<double>(wo)));
     if (!(local.z > 0) || !(wo.z > 0)) return false;
     const double sin2 = local.x * local.x + local.y * local.y;

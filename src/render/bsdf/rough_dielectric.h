@@ -34,8 +34,8 @@ struct RoughDielectric {
       const FacetReflection<T> r = facets.reflect(in, out);
       if (!(value(r.pdf) > 0)) return BsdfValue<T>::zero();
       const T f = fresnelDielectric(r.cosHalf, relative);
-      return {modulate<T>(*specularReflectance, uv, r.value * f * S(reflectanceScale)),
-              r.pdf * f, r.pdfReverse * f};
+      return {modulate<T>(*specularReflectance, uv, r.value * f * S(reflectanceScale)), r.pdf * f,
+              r.pdfReverse * f};
     }
     return transmit(uv, in, out, relative);
   }
@@ -44,7 +44,7 @@ struct RoughDielectric {
     const Vec3f in = wi.z < 0 ? flipped(wi) : wi;
     const float c = ad::dot(in, facets.sample(in, u0, u1));
     return choice < fresnelDielectric(std::abs(c), relativeIndex<float>(wi.z)) ? kReflect
-                                                                              : kTransmit;
+                                                                               : kTransmit;
   }
 
   template <class T>

@@ -48,7 +48,7 @@ struct RoughPlastic {
   }
   int chooseLobe(const Vec2f&, const Vec3f& wi, float, float, float choice) const {
     return wi.z > 0 && choice >= diffuseProbability(transmittance->evaluate(wi.z)) ? kSpecular
-                                                                                  : kDiffuse;
+                                                                                   : kDiffuse;
   }
   template <class T>
   Vec3<T> sample(const Vec2<T>&, const Vec3<T>& wi, int lobe, const T& u0, const T& u1) const {

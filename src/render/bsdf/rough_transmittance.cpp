@@ -61,8 +61,8 @@ double RoughTransmittance::integrate(const Microfacet& facets, double eta, doubl
         const double q = cut * y;
         inner += wy * std::exp(-q * q) * throughFacet(facets, eta, wi, Vec(a * p, a * q, 1));
       }
-      sum += wx * (cut - start) * visible * std::exp(-p * p) * inner * 2 * cut *
-             std::numbers::inv_pi;
+      sum +=
+          wx * (cut - start) * visible * std::exp(-p * p) * inner * 2 * cut * std::numbers::inv_pi;
     }
   }
   return sum * facets.maskingOverCos(cosine);
@@ -88,8 +88,8 @@ RoughTransmittance::RoughTransmittance(const Microfacet& facets, double eta) {
   pieces_.resize(n);
   for (int i = 0; i < n; ++i) {
     const double rise = f[i + 1] - f[i];
-    pieces_[static_cast<std::size_t>(i)] = {
-        f[i], m[i], 3 * rise - 2 * m[i] - m[i + 1], m[i] + m[i + 1] - 2 * rise};
+    pieces_[static_cast<std::size_t>(i)] = {f[i], m[i], 3 * rise - 2 * m[i] - m[i + 1],
+                                            m[i] + m[i + 1] - 2 * rise};
   }
 
   // Diffuse light from inside: 2 int_0^1 T(c) c dc, with nodes gathered at the smooth interface's

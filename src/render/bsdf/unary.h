@@ -11,7 +11,7 @@ namespace h2mc {
 // depends on.
 template <class T, class F>
 T ofOne(const T& x, F&& f) {
-  if constexpr (ad::isDual<T>) {
+  if constexpr (ad::dimension < T >> 1) {
     using One = ad::Dual2<Scalar<T>, 1>;
     const One y = f(One::variable(value(x), 0));
     return chain(x, y.v, y.gradient(0), y.hessian(0, 0));

@@ -25,8 +25,10 @@ constexpr Parameter kBitmapParameters[] = {
     {"raw", kBoolean, "false", "numbers instead of colours: the same as gamma 1"},
     {"wrapMode", kString, "repeat", "what lies outside the unit square",
      "repeat|mirror|clamp|zero|black|one|white"},
-    {"wrapModeU", kString, "", "the same along u alone", "repeat|mirror|clamp|zero|black|one|white"},
-    {"wrapModeV", kString, "", "the same along v alone", "repeat|mirror|clamp|zero|black|one|white"},
+    {"wrapModeU", kString, "", "the same along u alone",
+     "repeat|mirror|clamp|zero|black|one|white"},
+    {"wrapModeV", kString, "", "the same along v alone",
+     "repeat|mirror|clamp|zero|black|one|white"},
     {"filterType", kString, "ewa",
      "nearest, or else bilinear at full resolution (ewa and trilinear are read as that)",
      "nearest|bilinear|trilinear|ewa"},
@@ -78,8 +80,7 @@ TexturePtr createBitmap(const Properties& p) {
 
 constexpr Plugin<TexturePtr> kPlugins[] = {
     {"bitmap", "A picture from a file", kBitmapParameters, createBitmap},
-    {"checkerboard", "Fields of two colours by turns", kCheckerboardParameters,
-     createCheckerboard},
+    {"checkerboard", "Fields of two colours by turns", kCheckerboardParameters, createCheckerboard},
 };
 
 }  // namespace
