@@ -13,7 +13,7 @@ SEGMENTS = 512       # around the ring
 EDGE_SEGMENTS = 10   # around the half circle on top
 INNER_RADIUS = 1.0
 THICKNESS = 0.12
-HEIGHT = 0.42
+HEIGHT = 0.36
 BELOW = 0.01         # the closed underside is sunk into the plane
 
 

@@ -255,8 +255,10 @@ void addRenderCommand(CLI::App& app, Run& run) {
       ->check(positive)
       ->excludes(width)
       ->excludes(height);
-  command->add_option("--seed", options->seed,
-                      "Same scene, options and seed: same image. Default: the scene's, or 0");
+  command
+      ->add_option("--seed", options->seed,
+                   "Same scene, options and seed: same image. Default: the scene's, or 0")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--threads", options->threads, "Default: one a core")->check(positive);
   command
       ->add_option("-D", options->defines,

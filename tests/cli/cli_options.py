@@ -39,8 +39,10 @@ class Render(_h2mc.Test):
         self.fails(2, "render", "scene.xml", "--samples-per-pixel", 1, "--mutations-per-pixel", 1,
                    says="--mutations-per-pixel")
         for bad in ("0", "-1", "nan", "inf", "abc", "", "1x"):
-            for option in ("--time", "--samples-per-pixel", "--mutations-per-pixel", "--threads",
-                           "--width", "--scale"):
+            self.fails(2, "render", "scene.xml", "--time", bad, says="--time")
+        for option in ("--samples-per-pixel", "--mutations-per-pixel", "--threads", "--width",
+                       "--scale"):
+            for bad in ("0", "abc"):
                 self.fails(2, "render", "scene.xml", option, bad, says=option)
         self.fails(2, "render", "scene.xml", "--samples-per-pixel", "1.5")
 
