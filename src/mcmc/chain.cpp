@@ -41,13 +41,8 @@ Chain::Chain(const Target& target, const Path& start, Random random)
   target.evaluate(current_->path);
 }
 
-void Chain::splat(const Path& path, double weight, Film& film) {
-  if (weight > 0)
-    film.splat(path.filmX, path.filmY, path.contribution * static_cast<float>(weight / path.target));
-}
-
 void Chain::flush(Film& film) {
-  splat(current_->path, weight_, film);
+  if (weight_ > 0) Mutation::splatPath(current_->path, weight_, film);
   weight_ = 0;
 }
 
@@ -92,13 +87,13 @@ void Chain::step(KernelMixture& kernels, Film& film, ChainStatistics& statistics
   ++count.proposed;
   count.expected += acceptance;
   if (kind == 0) statistics.largeSteps.add(kernels.large->lastEstimate());
-  if (acceptance > 0 && random_.uniform() < acceptance) {
-    flush(film);
-    std::swap(current_, proposed_);
-    weight_ = acceptance;
-    moved_ = true;
-  } else if (acceptance > 0) {
-    splat(proposed_->path, acceptance, film);
+  if (acceptance > 0) {
+    mutation->splatProposal(*proposed_, acceptance, film);
+    if (random_.uniform() < acceptance) {
+      flush(film);
+      std::swap(current_, proposed_);
+      moved_ = true;
+    }
   }
   ++statistics.mutations;
   if (context.timed) {

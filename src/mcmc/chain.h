@@ -42,8 +42,6 @@ class Chain {
   const Path& path() const { return current_->path; }
 
  private:
-  static void splat(const Path& path, double weight, Film& film);
-
   std::unique_ptr<ChainState> current_, proposed_;
   Random random_;
   double weight_ = 0;  // of the present state, not yet splatted

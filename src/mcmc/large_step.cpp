@@ -1,10 +1,11 @@
 #include "mcmc/large_step.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace h2mc {
 
-bool LargeStep::propose(ChainState& current, ChainState& proposed, MutationContext& context,
+bool MultiplexedLargeStep::propose(ChainState& current, ChainState& proposed, MutationContext& context,
                         double& logRatio) {
   Random& random = *context.random;
   const int index = techniques_.choose(random.uniform());
@@ -17,8 +18,52 @@ bool LargeStep::propose(ChainState& current, ChainState& proposed, MutationConte
   lastEstimate_ = 0;
   if (!target_.evaluate(path)) return false;
   lastEstimate_ = path.target / techniques_.probability(index);
-  logRatio = std::log(techniques_.probability(current.path.technique) / techniques_.probability(index));
+  logRatio =
+      std::log(techniques_.probability(current.path.technique) / techniques_.probability(index));
   return true;
+}
+
+bool BidirectionalLargeStep::propose(ChainState& current, ChainState& proposed,
+                                     MutationContext& context, double& logRatio) {
+  const Scene& scene = target_.scene();
+  Random& random = *context.random;
+  connections_.clear();
+  double sum = 0;
+  sampler_.sample(scene, random, -1, -1, minLength_,
+                  [&](const BidirectionalSampler::Connection& c) {
+                    connections_.push_back(c);
+                    sum += luminance(c.contribution);
+                  });
+  lastEstimate_ = sum;
+  if (!(sum > 0)) return false;
+  double u = random.uniformDouble() * sum;
+  std::size_t picked = 0;
+  while (picked + 1 < connections_.size() &&
+         (u -= luminance(connections_[picked].contribution)) >= 0)
+    ++picked;
+  Path& path = proposed.path;
+  path.technique = connections_[picked].technique;
+  path.sample = sampler_.primarySample(path.technique);
+  if (!target_.evaluate(path)) return false;
+  proposed.bidirectional = sum;
+
+  if (!(current.bidirectional > 0)) {
+    double whole = 0;
+    sampler_.complete(scene, random, current.path, minLength_,
+                      [&](const BidirectionalSampler::Connection& c) {
+                        whole += luminance(c.contribution);
+                      });
+    // The path itself is among the connections; rounding may not make it vanish.
+    current.bidirectional = std::max(whole, double(current.path.target));
+  }
+  logRatio = std::log(sum / path.target) - std::log(current.bidirectional / current.path.target);
+  return true;
+}
+
+void BidirectionalLargeStep::splatProposal(const ChainState& proposed, double weight,
+                                           Film& film) const {
+  for (const BidirectionalSampler::Connection& c : connections_)
+    film.splat(c.filmX, c.filmY, c.contribution * static_cast<float>(weight / proposed.bidirectional));
 }
 
 }  // namespace h2mc

@@ -1,28 +1,58 @@
-// Large steps: a technique and a primary sample independent of the state.
+// Large steps: proposals that do not depend on the state.
 #pragma once
 
 #include "mcmc/mutation.h"
 #include "mcmc/technique_distribution.h"
+#include "render/path/bidirectional.h"
 
 namespace h2mc {
 
-class LargeStep final : public Mutation {
+class LargeStep : public Mutation {
+ public:
+  std::string_view name() const override { return "large"; }
+  // An unbiased estimate of the film's mean luminance that the last proposal gives; zero if it was
+  // dark.
+  double lastEstimate() const { return lastEstimate_; }
+
+ protected:
+  double lastEstimate_ = 0;
+};
+
+// One technique, drawn from fixed probabilities, at a uniform sample [Hachisuka et al. 2014].
+class MultiplexedLargeStep final : public LargeStep {
  public:
   // Keeps references.
-  LargeStep(const Target& target, const TechniqueDistribution& techniques)
+  MultiplexedLargeStep(const Target& target, const TechniqueDistribution& techniques)
       : target_(target), techniques_(techniques) {}
-  std::string_view name() const override { return "large"; }
   bool propose(ChainState& current, ChainState& proposed, MutationContext& context,
                double& logRatio) override;
-
-  // target / density of the last proposal, zero if it was dark: its mean is the integral of the
-  // target, the film's mean luminance.
-  double lastEstimate() const { return lastEstimate_; }
 
  private:
   const Target& target_;
   const TechniqueDistribution& techniques_;
-  double lastEstimate_ = 0;
+};
+
+// A whole bidirectional sample, of which one connection is drawn in proportion to its target.
+//
+// The chain's space is extended by the coordinates of the sample that its path does not use: they
+// are uniform and independent of everything, so they may be drawn when they are needed. On the
+// extended space, proposing a sample X' with connections i of target f_i' and picking i with
+// probability f_i' / W(X'), W = sum of f_i, is accepted with probability min(1, W(X') / W(X)): the
+// connection picked cancels. W varies less than any one technique's f.
+class BidirectionalLargeStep final : public LargeStep {
+ public:
+  BidirectionalLargeStep(const SceneTarget& target, int minLength)
+      : target_(target), minLength_(minLength), sampler_(target.maxLength()) {}
+  bool propose(ChainState& current, ChainState& proposed, MutationContext& context,
+               double& logRatio) override;
+  // All connections: the acceptance does not depend on which was picked.
+  void splatProposal(const ChainState& proposed, double weight, Film& film) const override;
+
+ private:
+  const SceneTarget& target_;
+  int minLength_;
+  BidirectionalSampler sampler_;
+  std::vector<BidirectionalSampler::Connection> connections_;
 };
 
 }  // namespace h2mc

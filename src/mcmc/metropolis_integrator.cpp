@@ -119,19 +119,21 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
   const SceneTarget target(scene, maxLength);
   TechniqueDistribution techniques(minLength, maxLength);
   {
-    // The root of the mean square minimises the variance of the brightness that large steps estimate.
-    std::vector<double> weights = bootstrap.techniqueSquares();
-    for (double& w : weights) w = std::sqrt(w);
+    const std::vector<double>& weights = bootstrap.techniqueLuminance();
     techniques.setWeights(weights, std::vector<bool>(weights.size(), true));
   }
 
+  const bool bidirectional = options_.string("largeStep") == "bidirectional";
   const int groups = groupCount(scene.film);
   const int chainCount = std::max(options_.integer("chains"), 1);
   std::vector<ChainGroup> work;
   work.reserve(static_cast<std::size_t>(groups));
   for (int g = 0; g < groups; ++g) {
     KernelMixture kernels;
-    kernels.large = std::make_unique<LargeStep>(target, techniques);
+    if (bidirectional)
+      kernels.large = std::make_unique<BidirectionalLargeStep>(target, minLength);
+    else
+      kernels.large = std::make_unique<MultiplexedLargeStep>(target, techniques);
     kernels.largeProbability = options_.number("largeStepProbability");
     kernels.small = method_.smallSteps(target, options_);
     const int kinds = kernels.kinds();
@@ -187,15 +189,15 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
   }
   for (std::size_t i = 1; i < work.size(); ++i) work[0].film.merge(work[i].film);
 
-  // Brightness: bootstrap samples and large steps both estimate it without bias. A large step sees
-  // one technique where a bootstrap sample sees all; the bootstrap knows both variances.
+  // Brightness: bootstrap samples and large steps both estimate it without bias. A multiplexed large
+  // step sees one technique where a bootstrap sample sees all; the bootstrap knows both variances.
   double multiplexed = 0;
   for (int k = 0; k < techniques.size(); ++k)
     if (techniques.probability(k) > 0)
       multiplexed += bootstrap.techniqueSquares()[static_cast<std::size_t>(k)] / techniques.probability(k);
   const Moments& first = bootstrap.luminance();
   const double spread = std::max(multiplexed - squared(first.mean()), 1e-30);
-  const double weight = std::min(1.0, first.variance() / spread);
+  const double weight = bidirectional ? 1 : std::min(1.0, first.variance() / spread);
   const double n0 = static_cast<double>(first.count);
   const double n1 = weight * static_cast<double>(total.largeSteps.count);
   const double brightness = (n0 * first.mean() + n1 * total.largeSteps.mean()) / (n0 + n1);

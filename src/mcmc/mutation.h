@@ -3,6 +3,8 @@
 
 #include <string_view>
 
+#include "render/image/film.h"
+
 #include "mcmc/gaussian.h"
 #include "mcmc/target.h"
 
@@ -16,11 +18,13 @@ struct ChainState {
   Path path;
   bool hasGaussian = false;
   Gaussian gaussian;
-  bool hasLens = false;
-  Gaussian lens;
+  double bidirectional = 0;  // luminance of a whole bidirectional sample around the path; 0: unknown
 
   // The path is about to change.
-  void forget() { hasGaussian = hasLens = false; }
+  void forget() {
+    hasGaussian = false;
+    bidirectional = 0;
+  }
 };
 
 // How often derivatives were wanted and what came of it.
@@ -56,6 +60,17 @@ class Mutation {
   // all techniques' spaces together. `current` changes only in what is derived from it.
   virtual bool propose(ChainState& current, ChainState& proposed, MutationContext& context,
                        double& logRatio) = 0;
+
+  // Adds the last proposal to a film, with the probability of its acceptance as weight: the path's
+  // contribution over its target. A mutation that knows what else it might as well have proposed
+  // adds the average of that.
+  virtual void splatProposal(const ChainState& proposed, double weight, Film& film) const {
+    splatPath(proposed.path, weight, film);
+  }
+
+  static void splatPath(const Path& path, double weight, Film& film) {
+    film.splat(path.filmX, path.filmY, path.contribution * static_cast<float>(weight / path.target));
+  }
 };
 
 }  // namespace h2mc

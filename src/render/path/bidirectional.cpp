@@ -17,9 +17,20 @@ BidirectionalSampler::BidirectionalSampler(int maxLength)
   lightPath_.technique = {maxLength, 1};
 }
 
-void BidirectionalSampler::draw(const Scene& scene, Random& random, float filmX, float filmY) {
+void BidirectionalSampler::draw(const Scene& scene, Random& random, float filmX, float filmY,
+                                const Path* given) {
   // Coordinates are drawn where they are first needed, in an order that the random stream alone
   // fixes: camera subpath, light subpath, then a light for each camera vertex.
+  const Technique own = given ? given->technique : Technique{0, 1};
+  const auto scatter = [&](Path& path, int coordinate, int choice, bool known, int knownCoordinate,
+                           int knownChoice) {
+    PrimarySample& sample = path.sample;
+    sample.u[at(coordinate)] = known ? given->sample.u[at(knownCoordinate)] : random.uniform();
+    sample.u[at(coordinate) + 1] =
+        known ? given->sample.u[at(knownCoordinate) + 1] : random.uniform();
+    sample.choice[at(choice)] = known ? given->sample.choice[at(knownChoice)] : random.uniform();
+  };
+
   Path& camera = cameraPath_;
   camera.sample.u[0] = filmX_ = filmX < 0 ? random.uniform() : filmX;
   camera.sample.u[1] = filmY_ = filmY < 0 ? random.uniform() : filmY;
@@ -28,9 +39,8 @@ void BidirectionalSampler::draw(const Scene& scene, Random& random, float filmX,
   for (int i = 1; i <= maxLength_; ++i) {
     if (i > 1) {
       const Technique& technique = camera.technique;
-      camera.sample.u[at(technique.cameraCoordinate(i - 1))] = random.uniform();
-      camera.sample.u[at(technique.cameraCoordinate(i - 1)) + 1] = random.uniform();
-      camera.sample.choice[at(technique.cameraChoice(i - 1))] = random.uniform();
+      scatter(camera, technique.cameraCoordinate(i - 1), technique.cameraChoice(i - 1),
+              i - 1 <= own.t - 2, own.cameraCoordinate(i - 1), own.cameraChoice(i - 1));
     }
     const Step step = stepCamera(scene, camera, i);
     escaped_ = step == Step::kEscaped;
@@ -40,21 +50,28 @@ void BidirectionalSampler::draw(const Scene& scene, Random& random, float filmX,
 
   Path& light = lightPath_;
   lightVertices_ = 0;
-  light.sample.choice[0] = random.uniform();
-  for (int i = 0; i < 4; ++i) light.sample.u[at(i)] = random.uniform();
+  const bool emitted = own.s >= 2;
+  light.sample.choice[0] = emitted ? given->sample.choice[at(own.lightPick())] : random.uniform();
+  for (int i = 0; i < 4; ++i)
+    light.sample.u[at(i)] =
+        emitted ? given->sample.u[at(own.lightOffset() + i)] : random.uniform();
   if (!pickLight(scene, light.sample.choice[0], light.lightIndex, light.lightPrimitive)) return;
   for (int i = 1; i < maxLength_; ++i) {
     if (i > 1) {
       const Technique& technique = light.technique;
-      light.sample.u[at(technique.lightCoordinate(i - 1))] = random.uniform();
-      light.sample.u[at(technique.lightCoordinate(i - 1)) + 1] = random.uniform();
-      light.sample.choice[at(technique.lightChoice(i - 1))] = random.uniform();
+      scatter(light, technique.lightCoordinate(i - 1), technique.lightChoice(i - 1),
+              i - 1 <= own.s - 2, own.lightCoordinate(i - 1), own.lightChoice(i - 1));
     }
     if (stepLight(scene, light, i) != Step::kArrived) break;
     lightVertices_ = i;
   }
-  for (int i = 1; i <= cameraVertices_; ++i)
+  for (int i = 1; i <= cameraVertices_; ++i) {
     direct_[at(i)] = {random.uniform(), random.uniform(), random.uniform()};
+    if (own.s == 1 && i == own.t - 1) {
+      const float* u = given->sample.u.data() + own.lightOffset();
+      direct_[at(i)] = {u[0], u[1], given->sample.choice[at(own.lightPick())]};
+    }
+  }
 }
 
 bool BidirectionalSampler::reaches(const Technique& technique) const {

@@ -26,7 +26,27 @@ class BidirectionalSampler {
   template <class Visit>
   int sample(const Scene& scene, Random& random, float filmX, float filmY, int minLength,
              Visit&& visit) {
-    draw(scene, random, filmX, filmY);
+    draw(scene, random, filmX, filmY, nullptr);
+    return joinAll(scene, minLength, visit);
+  }
+
+  // The same with those coordinates that `given` has taken from it, and only the others drawn: a
+  // bidirectional sample of which the given path is one connection.
+  template <class Visit>
+  int complete(const Scene& scene, Random& random, const Path& given, int minLength,
+               Visit&& visit) {
+    const float* u = given.sample.u.data();
+    const bool camera = given.technique.t >= 2;
+    draw(scene, random, camera ? u[0] : -1, camera ? u[1] : -1, &given);
+    return joinAll(scene, minLength, visit);
+  }
+
+  // The primary sample with which tracePath gives the last sample's connection of this technique.
+  PrimarySample primarySample(const Technique& technique) const;
+
+ private:
+  template <class Visit>
+  int joinAll(const Scene& scene, int minLength, Visit&& visit) {
     int notFinite = 0;
     for (int length = minLength; length <= maxLength_; ++length) {
       for (int s = 0; s <= length; ++s) {
@@ -40,11 +60,7 @@ class BidirectionalSampler {
     return notFinite;
   }
 
-  // The primary sample with which tracePath gives the last sample's connection of this technique.
-  PrimarySample primarySample(const Technique& technique) const;
-
- private:
-  void draw(const Scene& scene, Random& random, float filmX, float filmY);
+  void draw(const Scene& scene, Random& random, float filmX, float filmY, const Path* given);
   bool reaches(const Technique& technique) const;
   bool join(const Scene& scene, Connection& connection, int& notFinite);
 

@@ -83,8 +83,8 @@ bool lightVisible(const Scene& scene, const SurfacePoint<float>& point, int ligh
   const Light& l = scene.lights[static_cast<std::size_t>(light)];
   if (std::visit([](const auto& x) { return x.isInfinite(); }, l))
     return pointEscapes(scene, point, direct.direction);
-  const Vec3f end = point.p + direct.direction * direct.distance;
-  return timedQuery([&] { return scene.tracer->visible(point.p, point.ng, end, Vec3f(0)); });
+  return timedQuery(
+      [&] { return scene.tracer->visible(point.p, point.ng, direct.position, direct.normal); });
 }
 
 bool cameraVisible(const Scene& scene, const SurfacePoint<float>& point, float& filmX,
