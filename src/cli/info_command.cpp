@@ -22,6 +22,8 @@ template <class... F>
 struct Overloaded : F... {
   using F::operator()...;
 };
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;  // clang 14 needs to be told
 
 const char* kindOf(const Shape& shape) {
   return std::visit(

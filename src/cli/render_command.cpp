@@ -150,8 +150,10 @@ void printSummary(const Outputs& outputs, const RenderResult& result) {
              result.sampleUnit);
   fmt::print(stderr, "mean luminance {:.6g} +- {:.2g}\n", result.meanLuminance,
              result.meanLuminanceError);
-  if (result.statistics.is_structured() && !result.statistics.empty())
-    fmt::print(stderr, "{}", statisticsTable(result.statistics));
+  if (!result.statistics.is_object()) return;
+  nlohmann::json details = result.statistics;
+  for (const char* said : {"mean luminance", "mean luminance standard error"}) details.erase(said);
+  fmt::print(stderr, "{}", statisticsTable(details));
 }
 
 int write(const Plan& plan, const RenderResult& result) {

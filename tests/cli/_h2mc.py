@@ -15,6 +15,15 @@ SOURCE_DIR = os.environ.get("H2MC_SOURCE_DIR",
 RING = os.path.join(SOURCE_DIR, "scenes", "ring", "ring.xml")
 INTEGRATORS = ("path", "bdpt", "mmlt", "h2mc")
 
+
+
+def quick(integrator, *options):
+    """The integrator for -i, with less preparation than it makes for a real image."""
+    if integrator in ("mmlt", "h2mc"):
+        options = ("bootstrapSamples=4000", "chains=32", *options)
+    return integrator + (":" if options else "") + ",".join(options)
+
+
 # A grey box without a front under a lamp, seen by a small film.
 SCENE = """<scene version="0.6.0">
   <default name="width" value="24"/>

@@ -38,7 +38,7 @@ class Render(_h2mc.Test):
     def test_attributes_and_statistics(self):
         for integrator in _h2mc.INTEGRATORS:
             with self.subTest(integrator):
-                result = self.render("a.exr", "-i", f"{integrator}:maxDepth=4", "--seed", "17",
+                result = self.render("a.exr", "-i", _h2mc.quick(integrator, "maxDepth=4"), "--seed", "17",
                                      "--threads", "2", self.budget(integrator), "8",
                                      "-D", "width=20", "--stats", "a.json")
                 self.assertEqual(result.stdout, "")
@@ -85,7 +85,7 @@ class Render(_h2mc.Test):
 
     def test_time(self):
         start = time.monotonic()
-        self.render("a.exr", "-i", "h2mc", "--time", "1")
+        self.render("a.exr", "-i", _h2mc.quick("h2mc"), "--time", "1")
         self.assertLess(time.monotonic() - start, 20)
         self.assertGreater(self.read_exr("a.exr")[0]["samples"], 0)
 
@@ -93,9 +93,9 @@ class Render(_h2mc.Test):
         for integrator in _h2mc.INTEGRATORS:
             with self.subTest(integrator):
                 for threads in (1, 2):
-                    self.render(f"{threads}.exr", "-i", integrator, "--threads", threads,
+                    self.render(f"{threads}.exr", "-i", _h2mc.quick(integrator), "--threads", threads,
                                 "--seed", 5, self.budget(integrator), 16)
-                self.render("other.exr", "-i", integrator, "--seed", 6, self.budget(integrator), 16)
+                self.render("other.exr", "-i", _h2mc.quick(integrator), "--seed", 6, self.budget(integrator), 16)
                 one, two = self.read_exr("1.exr"), self.read_exr("2.exr")
                 for key in TIMING:
                     one[0].pop(key)
@@ -114,7 +114,7 @@ class Render(_h2mc.Test):
         for integrator, number in (("path", signal.SIGINT), ("h2mc", signal.SIGTERM),
                                    ("bdpt", signal.SIGTERM), ("mmlt", signal.SIGINT)):
             with self.subTest(integrator):
-                process = self.start("-i", integrator, "--stats", "a.json",
+                process = self.start("-i", _h2mc.quick(integrator), "--stats", "a.json",
                                      stdout=subprocess.PIPE, stderr=subprocess.PIPE)
                 # The first line of progress: it renders now.
                 while not re.search(r" left$", line := process.stderr.readline()):
