@@ -56,6 +56,11 @@ struct Dual2 {
                   reinterpret_cast<const char*>(from) + fromLane * sizeof(T), count * sizeof(T));
     };
     copy(r.g, Offset, a.g, 0, M);
+    if constexpr (Offset == 0 && detail::packs<T, M>() && detail::packs<T, N>()) {
+      // Packed row by row, the smaller triangle is the larger one's beginning.
+      copy(r.h, 0, a.h, 0, M * (M + 1) / 2);
+      return r;
+    }
     for (int i = 0; i < M; ++i)
       copy(r.h, Layout::position(i + Offset, Offset), a.h, From::position(i, 0), i + 1);
     return r;

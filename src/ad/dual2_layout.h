@@ -14,8 +14,22 @@
 #include <type_traits>
 #include <utility>
 
+// Operations must be inlined for their operands to stay in registers. Not under the sanitizers: their
+// checks make the resulting functions so long that compilers need ten minutes for them.
+#if defined(__SANITIZE_ADDRESS__)
+#define H2MC_AD_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define H2MC_AD_SANITIZED 1
+#endif
+#endif
+#if defined(H2MC_AD_SANITIZED)
+#define H2MC_AD_INLINE inline
+#define H2MC_AD_LAMBDA
+#else
 #define H2MC_AD_INLINE inline __attribute__((always_inline))
 #define H2MC_AD_LAMBDA __attribute__((always_inline))
+#endif
 
 namespace h2mc::ad::detail {
 
