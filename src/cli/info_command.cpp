@@ -42,6 +42,18 @@ const char* kindOf(const Light& light) {
       light);
 }
 
+const char* kindOf(const Bsdf& bsdf) {
+  return std::visit(
+      Overloaded{[](const Diffuse&) { return "diffuse"; }, [](const Phong&) { return "phong"; },
+                 [](const RoughConductor&) { return "roughconductor"; },
+                 [](const RoughDielectric&) { return "roughdielectric"; },
+                 [](const Conductor&) { return "conductor"; },
+                 [](const Dielectric&) { return "dielectric"; },
+                 [](const Plastic&) { return "plastic"; },
+                 [](const RoughPlastic&) { return "roughplastic"; }},
+      bsdf);
+}
+
 const char* nameOf(Filter::Kind kind) {
   switch (kind) {
     case Filter::Kind::kBox:
@@ -87,17 +99,18 @@ void printGeometry(const Scene& scene) {
 }
 
 void printMaterials(const Scene& scene) {
-  std::map<std::string, long long> plugins;
+  std::map<std::string, long long> kinds;
   long long twosided = 0, masked = 0;
+  for (const Bsdf& bsdf : scene.bsdfs) ++kinds[kindOf(bsdf)];
   for (const Material& material : scene.materials) {
-    ++plugins[material.plugin];
     twosided += material.twosided;
     masked += material.opacity != nullptr;
   }
   std::string more;
   if (twosided > 0) more += fmt::format(", {} two-sided", twosided);
   if (masked > 0) more += fmt::format(", {} with opacity", masked);
-  line("materials", fmt::format("{} ({}){}", scene.materials.size(), text(plugins), more));
+  line("materials", fmt::format("{}{}", scene.materials.size(), more));
+  line("bsdfs", fmt::format("{} ({})", scene.bsdfs.size(), text(kinds)));
 }
 
 void printLights(const Scene& scene) {

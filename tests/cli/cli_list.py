@@ -37,7 +37,7 @@ class Info(_h2mc.Test):
         text = self.succeeds("info", "scene.xml", "-D", "width=40").stdout
         self.assertRegex(text, r"shapes +4 \(1 sphere, 3 triangle mesh\)")
         self.assertRegex(text, r"triangles +6\b")
-        self.assertRegex(text, r"materials +\d+ \(\d diffuse\)")
+        self.assertRegex(text, r"bsdfs +\d+ \(\d diffuse\)")
         self.assertRegex(text, r"lights +1 \(1 area\)")
         self.assertRegex(text, r"film +40 x 16, box filter")
         self.assertRegex(text, r"moving +no")
