@@ -46,7 +46,7 @@ chroot "$new" chown -R visitor: /home/visitor
 # inside USER COMMAND: runs it in the clone, with an environment as bare as the system.
 inside() {
   unshare --mount --pid --fork -- bash -c '
-    mount -t proc proc "$1/proc" && shift &&
+    mount -t proc proc "$1/proc" && mount -t devpts -o newinstance,ptmxmode=666 devpts "$1/dev/pts" && shift &&
     exec env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 HOME=/tmp "$@"' - "$new" \
     chroot --userspec="$1" "$new" bash -c "cd '$home/h2mc' && $2" </dev/null
 }
