@@ -32,6 +32,17 @@ void warnOfNonFinite(const std::string& path, const Image& image) {
                image.pixels.size(), path);
 }
 
+// Where `image` is a whole multiple of `other` in both directions, averages its blocks.
+void matchSizes(Image& image, const std::string& path, const Image& other) {
+  if (other.width == 0 || image.width <= other.width || image.width % other.width != 0 ||
+      image.height % other.height != 0 || image.width / other.width != image.height / other.height)
+    return;
+  const int factor = image.width / other.width;
+  image = averaged(image, factor);
+  fmt::print(stderr, "\"{}\" is averaged over {} x {} pixels to the other's size\n", path, factor,
+             factor);
+}
+
 int diff(const DiffOptions& options) {
   // A tolerance is for one metric; what is not asked for is all of them.
   std::vector<const Metric*> chosen;
@@ -44,7 +55,10 @@ int diff(const DiffOptions& options) {
     throw InputError("--tolerance needs one metric: give --metric NAME");
   if (!options.picture.empty()) checkWritable(options.picture);
 
-  const Image image = readImage(options.image), reference = readImage(options.reference);
+  Image image = readImage(options.image), reference = readImage(options.reference);
+  // A larger picture of the same film is compared at the smaller one's resolution.
+  matchSizes(image, options.image, reference);
+  matchSizes(reference, options.reference, image);
   if (image.width != reference.width || image.height != reference.height)
     throw InputError(fmt::format("the images differ in size: \"{}\" is {} x {}, \"{}\" is {} x {}",
                                  options.image, image.width, image.height, options.reference,

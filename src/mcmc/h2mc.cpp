@@ -9,7 +9,7 @@ namespace h2mc {
 namespace {
 
 constexpr auto kParameters = withShared(std::array{
-    Parameter{"isotropicProbability", ParameterType::kNumber, "0.2",
+    Parameter{"isotropicProbability", ParameterType::kNumber, "0.5",
               "share of isotropic steps among those that are neither large nor of the lens"},
     Parameter{"trajectoryLength", ParameterType::kNumber, "1.5707963",
               "length of the Hamiltonian trajectory, 0 < L < pi"},

@@ -55,11 +55,11 @@ RenderResult MetropolisIntegrator::renderDirect(const Scene& scene, const Render
   RenderRequest own = request;
   own.progress = nullptr;
   own.budget = {};
+  // A time budget holds for the whole render: the scene's number of samples is then an upper limit.
+  if (request.budget.seconds > 0) own.budget.seconds = kTimeShare * request.budget.seconds;
   if (wanted > 0) {
     own.budget.samplesPerPixel = wanted;
-  } else if (request.budget.seconds > 0) {
-    own.budget.seconds = kTimeShare * request.budget.seconds;
-  } else {
+  } else if (request.budget.seconds <= 0) {
     own.budget.samplesPerPixel = std::clamp(mutationsPerPixel / 4, 1LL, 256LL);
   }
   return factory.create(options)->render(scene, own);

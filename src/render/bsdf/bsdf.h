@@ -39,6 +39,8 @@ namespace h2mc {
 //   // The lobe drawn for wi with the choice coordinate in [0, 1); (u0, u1) are the direction's
 //   // coordinates, which some lobes' probabilities depend on (roughdielectric's facet).
 //   int chooseLobe(const Vec2f& uv, const Vec3f& wi, float u0, float u1, float choice);
+//   // Below this choice it is the lobe that chooseLobe gives at 0, from there on the other one.
+//   float lobeSplit(const Vec2f& uv, const Vec3f& wi, float u0, float u1);
 //
 //   // The direction that the non-delta lobe draws from (u0, u1) in [0, 1)^2. u1 is an azimuth: it
 //   // wraps. May return a direction that evaluate() gives zero for: noDirection() where the draw

@@ -22,6 +22,7 @@ struct Conductor {
   BsdfValue<T> evaluate(const Vec2<T>&, const Vec3<T>&, const Vec3<T>&) const {
     return BsdfValue<T>::zero();
   }
+  float lobeSplit(const Vec2f&, const Vec3f&, float, float) const { return 1; }
   int chooseLobe(const Vec2f&, const Vec3f&, float, float, float) const { return 0; }
   template <class T>
   Vec3<T> sample(const Vec2<T>&, const Vec3<T>&, int, const T&, const T&) const {

@@ -23,9 +23,12 @@ struct Dielectric {
   BsdfValue<T> evaluate(const Vec2<T>&, const Vec3<T>&, const Vec3<T>&) const {
     return BsdfValue<T>::zero();
   }
-  int chooseLobe(const Vec2f&, const Vec3f& wi, float, float, float choice) const {
+  float lobeSplit(const Vec2f&, const Vec3f& wi, float, float) const {
     const float near = wi.z < 0 ? 1 / eta : eta;
-    return choice < fresnelDielectric(std::abs(wi.z), near) ? kReflect : kTransmit;
+    return fresnelDielectric(std::abs(wi.z), near);
+  }
+  int chooseLobe(const Vec2f& uv, const Vec3f& wi, float u0, float u1, float choice) const {
+    return choice < lobeSplit(uv, wi, u0, u1) ? kReflect : kTransmit;
   }
   template <class T>
   Vec3<T> sample(const Vec2<T>&, const Vec3<T>&, int, const T&, const T&) const {

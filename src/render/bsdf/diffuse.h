@@ -23,6 +23,7 @@ struct Diffuse {
     const S invPi = kInvPiOf<T>;
     return {modulate<T>(*reflectance, uv, wo.z * (invPi * S(scale))), wo.z * invPi, wi.z * invPi};
   }
+  float lobeSplit(const Vec2f&, const Vec3f&, float, float) const { return 1; }
   int chooseLobe(const Vec2f&, const Vec3f&, float, float, float) const { return 0; }
   template <class T>
   Vec3<T> sample(const Vec2<T>&, const Vec3<T>&, int, const T& u0, const T& u1) const {

@@ -9,34 +9,25 @@ int lobeCount(const Bsdf& bsdf) {
   return std::visit([](const auto& b) { return std::remove_cvref_t<decltype(b)>::kLobes; }, bsdf);
 }
 
-// The first choice in (0, 1) for which `later` holds; it is false at 0, true at 1 and monotone.
-template <class Predicate>
-float firstChoice(Predicate&& later) {
-  float low = 0, high = 1;
-  while (true) {
-    const float middle = 0.5f * (low + high);
-    if (middle <= low || middle >= high || high - low < 0x1p-30f) return high;
-    (later(middle) ? high : low) = middle;
-  }
-}
-
 }  // namespace
 
 ChoiceInterval choiceInterval(std::span<const Bsdf> bsdfs, const Material& material,
                               const Vec2f& uv, const Vec3f& wi, float u0, float u1, LobeId lobe) {
-  const auto at = [&](float choice) {
-    return chooseLobe(bsdfs, material, uv, wi, u0, u1, choice);
-  };
-  // At most three intervals: a BSDF's two lobes, and passing through where it is not opaque.
-  const LobeId first = at(0), last = at(0x1.fffffep-1f);
-  if (first == last) return lobe == first ? ChoiceInterval{0, 1} : ChoiceInterval{};
-  const float begin = lobe == first  ? 0
-                      : lobe == last ? firstChoice([&](float c) { return at(c) == last; })
-                                     : firstChoice([&](float c) { return !(at(c) == first); });
-  const float end = lobe == last    ? 1
-                    : lobe == first ? firstChoice([&](float c) { return !(at(c) == first); })
-                                    : firstChoice([&](float c) { return at(c) == last; });
-  return begin < end && at(begin) == lobe ? ChoiceInterval{begin, end} : ChoiceInterval{};
+  bool back;
+  const Bsdf* const bsdf = detail::seen(bsdfs, material, wi.z, back);
+  // Up to three intervals: a BSDF's two lobes, then passing through where it is not opaque.
+  const float opaque =
+      material.opacity ? detail::opacityProbability(evaluate<float>(*material.opacity, uv)) : 1;
+  if (lobe.null) return {opaque, 1};
+  if (!bsdf || lobe.back != back) return {};
+  return std::visit(
+      [&](const auto& b) -> ChoiceInterval {
+        const Vec3f w = detail::facing(wi, back);
+        const float split = std::clamp(b.lobeSplit(uv, w, u0, u1), 0.f, 1.f);
+        const bool first = split > 0 && b.chooseLobe(uv, w, u0, u1, 0) == lobe.lobe;
+        return first ? ChoiceInterval{0, split * opaque} : ChoiceInterval{split * opaque, opaque};
+      },
+      *bsdf);
 }
 
 bool drawLobe(std::span<const Bsdf> bsdfs, const Material& material, const Vec2f& uv,

@@ -36,6 +36,7 @@ struct Phong {
     r.pdfReverse = shared + wi.z * (wd * invPi);
     return r;
   }
+  float lobeSplit(const Vec2f&, const Vec3f&, float, float) const { return specularWeight; }
   int chooseLobe(const Vec2f&, const Vec3f&, float, float, float choice) const {
     return choice < specularWeight ? kSpecular : kDiffuse;
   }

@@ -30,8 +30,11 @@ struct Plastic {
     return {base.modulated<T>(uv, through * wo.z * (invPi * S(base.inverseEta2))),
             diffuseProbability(wi.z) * wo.z * invPi, diffuseProbability(wo.z) * wi.z * invPi};
   }
-  int chooseLobe(const Vec2f&, const Vec3f& wi, float, float, float choice) const {
-    return wi.z > 0 && choice >= diffuseProbability(wi.z) ? kSpecular : kDiffuse;
+  float lobeSplit(const Vec2f&, const Vec3f& wi, float, float) const {
+    return wi.z > 0 ? diffuseProbability(wi.z) : 1;
+  }
+  int chooseLobe(const Vec2f& uv, const Vec3f& wi, float u0, float u1, float choice) const {
+    return choice < lobeSplit(uv, wi, u0, u1) ? kDiffuse : kSpecular;
   }
   template <class T>
   Vec3<T> sample(const Vec2<T>&, const Vec3<T>&, int lobe, const T& u0, const T& u1) const {

@@ -27,6 +27,7 @@ struct RoughConductor {
     const Rgb<T> scaled = modulate<T>(*specular, uv, r.value * Scalar<T>(scale));
     return {index.reflect(scaled, r.cosHalf), r.pdf, r.pdfReverse};
   }
+  float lobeSplit(const Vec2f&, const Vec3f&, float, float) const { return 1; }
   int chooseLobe(const Vec2f&, const Vec3f&, float, float, float) const { return 0; }
   template <class T>
   Vec3<T> sample(const Vec2<T>&, const Vec3<T>& wi, int, const T& u0, const T& u1) const {

@@ -40,11 +40,13 @@ struct RoughDielectric {
     return transmit(uv, in, out, relative);
   }
 
-  int chooseLobe(const Vec2f&, const Vec3f& wi, float u0, float u1, float choice) const {
+  float lobeSplit(const Vec2f&, const Vec3f& wi, float u0, float u1) const {
     const Vec3f in = wi.z < 0 ? flipped(wi) : wi;
     const float c = ad::dot(in, facets.sample(in, u0, u1));
-    return choice < fresnelDielectric(std::abs(c), relativeIndex<float>(wi.z)) ? kReflect
-                                                                               : kTransmit;
+    return fresnelDielectric(std::abs(c), relativeIndex<float>(wi.z));
+  }
+  int chooseLobe(const Vec2f& uv, const Vec3f& wi, float u0, float u1, float choice) const {
+    return choice < lobeSplit(uv, wi, u0, u1) ? kReflect : kTransmit;
   }
 
   template <class T>

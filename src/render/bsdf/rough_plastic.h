@@ -46,9 +46,11 @@ struct RoughPlastic {
     }
     return r;
   }
-  int chooseLobe(const Vec2f&, const Vec3f& wi, float, float, float choice) const {
-    return wi.z > 0 && choice >= diffuseProbability(transmittance->evaluate(wi.z)) ? kSpecular
-                                                                                   : kDiffuse;
+  float lobeSplit(const Vec2f&, const Vec3f& wi, float, float) const {
+    return wi.z > 0 ? diffuseProbability(transmittance->evaluate(wi.z)) : 1;
+  }
+  int chooseLobe(const Vec2f& uv, const Vec3f& wi, float u0, float u1, float choice) const {
+    return choice < lobeSplit(uv, wi, u0, u1) ? kDiffuse : kSpecular;
   }
   template <class T>
   Vec3<T> sample(const Vec2<T>&, const Vec3<T>& wi, int lobe, const T& u0, const T& u1) const {

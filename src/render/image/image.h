@@ -19,4 +19,7 @@ struct Image {
   const Rgbf& at(int x, int y) const { return pixels[static_cast<std::size_t>(y) * width + x]; }
 };
 
+// Means of blocks of factor x factor pixels; the sizes must be multiples of the factor.
+Image averaged(const Image& image, int factor);
+
 }  // namespace h2mc

@@ -16,7 +16,8 @@ namespace h2mc {
 
 struct Scene;
 
-// How long to render: at most one is non-zero; all zero means the integrator's own default.
+// How long to render; all zero means the integrator's own default. Where a time and a number are
+// given, whichever is reached first.
 struct RenderBudget {
   double seconds = 0;
   long long samplesPerPixel = 0;

@@ -22,11 +22,9 @@ RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
 
   RoundsPlan plan;
   plan.seconds = request.budget.seconds;
-  if (plan.seconds <= 0) {
-    // A sample is what a mutation is compared with.
-    plan.rounds = request.budget.samplesPerPixel + request.budget.mutationsPerPixel;
-    if (plan.rounds == 0) plan.rounds = defaultSamplesPerPixel;
-  }
+  // A sample is what a mutation is compared with.
+  plan.rounds = request.budget.samplesPerPixel + request.budget.mutationsPerPixel;
+  if (plan.seconds <= 0 && plan.rounds == 0) plan.rounds = defaultSamplesPerPixel;
   plan.unitsPerRound = static_cast<double>(width) * height;
   plan.unit = "samples";
 

@@ -1,0 +1,64 @@
+// Images against an independent renderer's.
+#include "image_check.h"
+
+namespace h2mc::test {
+namespace {
+
+struct Case {
+  std::string scene;       // below crosscheck, or torus, bathroom
+  std::string integrator;
+  int runs;
+  long long samplesPerPixel;
+  double resolution;  // of the mean
+  std::vector<std::pair<std::string, std::string>> options = {};
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.scene << " " << c.integrator; }
+
+class References : public testing::TestWithParam<Case> {};
+
+TEST_P(References, SlowAgree) {
+  const Case& c = GetParam();
+  const bool large = c.scene == "torus" || c.scene == "bathroom";
+  const std::string data = H2MC_DATA_DIR;
+  const int edge = large ? 32 : 12;
+  Reference reference;
+  if (!readReference(large ? c.scene : "crosscheck/" + c.scene, edge, reference))
+    GTEST_SKIP() << "the published references are not there: see H2MC_DATA_DIR";
+  const std::string file =
+      data + (large ? "/" + c.scene + "/" : std::string("/crosscheck/")) + c.scene + ".xml";
+  const Scene scene = readTestScene(file, c.scene == "torus" ? 256 : large ? 256 : 0,
+                                    c.scene == "torus" ? 192 : large ? 256 : 0);
+  auto options = c.options;
+  if (large) options.emplace_back("maxDepth", "8");
+  const Runs runs = renderRuns(scene, c.integrator, options, c.runs, c.samplesPerPixel, edge);
+  expectAgreement(runs, reference.mean, reference.variance, c.resolution,
+                  c.scene + " " + c.integrator);
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> list;
+  for (const char* scene :
+       {"checker_point", "conductor", "dielectric_constant", "diffuse_area", "envmap",
+        "fov_y_gaussian", "phong", "plastic", "roughconductor_beckmann", "roughconductor_ggx",
+        "roughdielectric", "roughplastic", "white_furnace_phong"})
+    list.push_back({scene, "path", 8, 24, 4e-3});
+  for (const char* scene : {"diffuse_area", "plastic", "roughdielectric", "dielectric_constant"}) {
+    list.push_back({scene, "bdpt", 8, 12, 1e-2});
+    for (const char* integrator : {"mmlt", "h2mc"})
+      list.push_back({scene, integrator, 8, 16, 1.5e-2,
+                      {{"bootstrapSamples", "30000"}, {"chains", "256"}}});
+  }
+  list.push_back({"torus", "path", 6, 16, 1.5e-2});
+  list.push_back({"torus", "bdpt", 6, 10, 1.5e-2});
+  list.push_back({"torus", "mmlt", 6, 16, 1.5e-2});
+  list.push_back({"torus", "h2mc", 6, 12, 1.5e-2});
+  return list;
+}
+
+INSTANTIATE_TEST_SUITE_P(Published, References, testing::ValuesIn(cases()), [](const auto& info) {
+  return info.param.scene + "_" + info.param.integrator;
+});
+
+}  // namespace
+}  // namespace h2mc::test
