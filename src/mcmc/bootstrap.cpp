@@ -84,8 +84,8 @@ void Bootstrap::drawStart(Random& random, Path& start) const {
   tracePath(scene_, start);
   if (!(std::abs(start.target - parts[k].second) <= 1e-3 * parts[k].second))
     throw ReplayError(fmt::format(
-        "bootstrap sample {} (seed {}), technique s={} t={}: replayed luminance {} is not {}", index,
-        seed_, start.technique.s, start.technique.t, start.target, parts[k].second));
+        "bootstrap sample {} (seed {}), technique s={} t={}: replayed luminance {} is not {}",
+        index, seed_, start.technique.s, start.technique.t, start.target, parts[k].second));
 }
 
 }  // namespace h2mc

@@ -74,7 +74,8 @@ void Chain::step(KernelMixture& kernels, Film& film, ChainStatistics& statistics
   const bool made = mutation->propose(*current_, *proposed_, context, logRatio);
   double acceptance = 0;
   if (made) {
-    const double ratio = double(proposed_->path.target) / current_->path.target * std::exp(logRatio);
+    const double ratio =
+        double(proposed_->path.target) / current_->path.target * std::exp(logRatio);
     acceptance = std::isfinite(ratio) ? std::min(1.0, ratio) : (ratio > 0 ? 1.0 : 0.0);
   } else if (!proposed_->path.finite) {
     if (statistics.notFinite++ == 0) statistics.firstNotFinite = describe(proposed_->path);

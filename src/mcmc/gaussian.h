@@ -7,9 +7,9 @@
 namespace h2mc {
 
 struct HamiltonianSettings {
-  float sigma = 0.01f;                 // standard deviation of the isotropic prior
-  float trajectory = 1.5707963f;       // L, the length of the simulated trajectory
-  float maxDrift = 3;                  // longest drift along an eigenvector, in its own deviations
+  float sigma = 0.01f;            // standard deviation of the isotropic prior
+  float trajectory = 1.5707963f;  // L, the length of the simulated trajectory
+  float maxDrift = 3;             // longest drift along an eigenvector, in its own deviations
 };
 
 // A Gaussian over offsets in primary space: eigenvectors, a standard deviation and a mean for each.
@@ -17,7 +17,7 @@ struct Gaussian {
   int dimension = 0;
   bool isotropic = false;  // eigenvectors are the axes and not stored
   float deviation[kMaxDerivativeDimension];
-  float mean[kMaxDerivativeDimension];  // along the eigenvectors
+  float mean[kMaxDerivativeDimension];                              // along the eigenvectors
   float vectors[kMaxDerivativeDimension][kMaxDerivativeDimension];  // rows
   double logNormalisation = 0;  // -sum of log(deviation); the power of 2 pi is left out
 

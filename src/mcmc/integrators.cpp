@@ -8,9 +8,8 @@ namespace {
 
 template <MetropolisMethod (*method)()>
 IntegratorFactory factory() {
-  return {method().plugin, [](const OptionSet& options) {
-            return makeMetropolisIntegrator(method(), options);
-          }};
+  return {method().plugin,
+          [](const OptionSet& options) { return makeMetropolisIntegrator(method(), options); }};
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 namespace h2mc {
 
-bool MultiplexedLargeStep::propose(ChainState& current, ChainState& proposed, MutationContext& context,
-                        double& logRatio) {
+bool MultiplexedLargeStep::propose(ChainState& current, ChainState& proposed,
+                                   MutationContext& context, double& logRatio) {
   Random& random = *context.random;
   const int index = techniques_.choose(random.uniform());
   Path& path = proposed.path;
@@ -49,10 +49,9 @@ bool BidirectionalLargeStep::propose(ChainState& current, ChainState& proposed,
 
   if (!(current.bidirectional > 0)) {
     double whole = 0;
-    sampler_.complete(scene, random, current.path, minLength_,
-                      [&](const BidirectionalSampler::Connection& c) {
-                        whole += luminance(c.contribution);
-                      });
+    sampler_.complete(
+        scene, random, current.path, minLength_,
+        [&](const BidirectionalSampler::Connection& c) { whole += luminance(c.contribution); });
     // The path itself is among the connections; rounding may not make it vanish.
     current.bidirectional = std::max(whole, double(current.path.target));
   }
@@ -63,7 +62,8 @@ bool BidirectionalLargeStep::propose(ChainState& current, ChainState& proposed,
 void BidirectionalLargeStep::splatProposal(const ChainState& proposed, double weight,
                                            Film& film) const {
   for (const BidirectionalSampler::Connection& c : connections_)
-    film.splat(c.filmX, c.filmY, c.contribution * static_cast<float>(weight / proposed.bidirectional));
+    film.splat(c.filmX, c.filmY,
+               c.contribution * static_cast<float>(weight / proposed.bidirectional));
 }
 
 }  // namespace h2mc

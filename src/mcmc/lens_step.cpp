@@ -42,7 +42,8 @@ double LensStep::logDensity(const Path& path, int reconnection) {
   const int last = path.technique.t - 1;
   double sum = 0;
   for (int i = reconnection + 1; i <= std::min(reconnection + 2, last); ++i)
-    sum -= std::log(double(i == last && path.escaped ? path.lastRay.vcm : path.camera[at(i)].vertex.vcm));
+    sum -= std::log(
+        double(i == last && path.escaped ? path.lastRay.vcm : path.camera[at(i)].vertex.vcm));
   return sum;
 }
 

@@ -70,8 +70,7 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
   const int maxLength = maxPathLength(options_.integer("maxDepth"));
   int minLength = options_.integer("minDepth");
   const double pixels = static_cast<double>(scene.film.width) * scene.film.height;
-  long long mutationsPerPixel =
-      request.budget.mutationsPerPixel + request.budget.samplesPerPixel;
+  long long mutationsPerPixel = request.budget.mutationsPerPixel + request.budget.samplesPerPixel;
   if (mutationsPerPixel == 0 && request.budget.seconds <= 0)
     mutationsPerPixel = options_.integer("mutationsPerPixel");
 
@@ -137,7 +136,8 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
     kernels.largeProbability = options_.number("largeStepProbability");
     kernels.small = method_.smallSteps(target, options_);
     const int kinds = kernels.kinds();
-    work.push_back({Film(scene.film), std::move(kernels), ChainStatistics(kinds, maxLength), {}, {}});
+    work.push_back(
+        {Film(scene.film), std::move(kernels), ChainStatistics(kinds, maxLength), {}, {}});
   }
   parallelFor(request.threads, groups, [&](int g) {
     Path start(maxLength);
@@ -194,15 +194,16 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
   double multiplexed = 0;
   for (int k = 0; k < techniques.size(); ++k)
     if (techniques.probability(k) > 0)
-      multiplexed += bootstrap.techniqueSquares()[static_cast<std::size_t>(k)] / techniques.probability(k);
+      multiplexed +=
+          bootstrap.techniqueSquares()[static_cast<std::size_t>(k)] / techniques.probability(k);
   const Moments& first = bootstrap.luminance();
   const double spread = std::max(multiplexed - squared(first.mean()), 1e-30);
   const double weight = bidirectional ? 1 : std::min(1.0, first.variance() / spread);
   const double n0 = static_cast<double>(first.count);
   const double n1 = weight * static_cast<double>(total.largeSteps.count);
   const double brightness = (n0 * first.mean() + n1 * total.largeSteps.mean()) / (n0 + n1);
-  const double error = std::hypot(n0 * first.standardError(), n1 * total.largeSteps.standardError()) /
-                       (n0 + n1);
+  const double error =
+      std::hypot(n0 * first.standardError(), n1 * total.largeSteps.standardError()) / (n0 + n1);
 
   const double mutations = static_cast<double>(total.mutations);
   result.image = work[0].film.develop(mutations > 0 ? brightness / mutations : 0);

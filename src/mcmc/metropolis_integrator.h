@@ -10,7 +10,8 @@ namespace h2mc {
 // A method: its options and the small steps it runs.
 struct MetropolisMethod {
   IntegratorPlugin plugin;
-  std::vector<KernelMixture::Small> (*smallSteps)(const SceneTarget& target, const OptionSet& options);
+  std::vector<KernelMixture::Small> (*smallSteps)(const SceneTarget& target,
+                                                  const OptionSet& options);
 };
 
 std::unique_ptr<Integrator> makeMetropolisIntegrator(const MetropolisMethod& method,

@@ -10,19 +10,27 @@ namespace h2mc {
 inline constexpr Parameter kMetropolisParameters[] = {
     kMaxDepthParameter,
     kMinDepthParameter,
-    {"mutationsPerPixel", ParameterType::kInteger, "128", "mutations for each pixel, if no budget is given"},
+    {"mutationsPerPixel", ParameterType::kInteger, "128",
+     "mutations for each pixel, if no budget is given"},
     {"directSamples", ParameterType::kInteger, "-1",
-     "samples a pixel of path tracing for paths of up to two edges, which the chains then leave out; 0: the chains do all, -1: chosen by the budget"},
+     "samples a pixel of path tracing for paths of up to two edges, which the chains then leave "
+     "out; 0: the chains do all, -1: chosen by the budget"},
     {"chains", ParameterType::kInteger, "512", "independent Markov chains"},
-    {"bootstrapSamples", ParameterType::kInteger, "100000", "bidirectional samples that place the chains and give the first estimate of the brightness"},
+    {"bootstrapSamples", ParameterType::kInteger, "100000",
+     "bidirectional samples that place the chains and give the first estimate of the brightness"},
     {"largeStepProbability", ParameterType::kNumber, "0.1", "share of large steps"},
     {"largeStep", ParameterType::kString, "bidirectional",
      "what a large step proposes: a connection of a whole bidirectional sample, or one technique",
      "bidirectional|multiplexed"},
-    {"lensProbability", ParameterType::kNumber, "0.3", "share of lens perturbations among the other steps"},
-    {"lensSigma", ParameterType::kNumber, "0.01", "standard deviation of the lens perturbation, in film widths"},
-    {"roughnessThreshold", ParameterType::kNumber, "0.1", "scattering lobes narrower than this (radians) are followed, not reconnected to, by the lens perturbation"},
-    {"sigma", ParameterType::kNumber, "0.01", "standard deviation of isotropic steps, and of the prior"},
+    {"lensProbability", ParameterType::kNumber, "0.3",
+     "share of lens perturbations among the other steps"},
+    {"lensSigma", ParameterType::kNumber, "0.01",
+     "standard deviation of the lens perturbation, in film widths"},
+    {"roughnessThreshold", ParameterType::kNumber, "0.1",
+     "scattering lobes narrower than this (radians) are followed, not reconnected to, by the lens "
+     "perturbation"},
+    {"sigma", ParameterType::kNumber, "0.01",
+     "standard deviation of isotropic steps, and of the prior"},
 };
 
 // The shared parameters, then a method's own.

@@ -19,17 +19,18 @@ std::vector<KernelMixture::Small> smallSteps(const SceneTarget& target, const Op
   const double lens = options.number("lensProbability");
   std::vector<KernelMixture::Small> steps;
   steps.push_back({makeLensStep(target, options), lens, 0});
-  steps.push_back({std::make_unique<IsotropicStep>(target, shape,
-                                                   static_cast<float>(options.number("sigma"))),
-                   1 - lens, 1});
+  steps.push_back(
+      {std::make_unique<IsotropicStep>(target, shape, static_cast<float>(options.number("sigma"))),
+       1 - lens, 1});
   return steps;
 }
 
 }  // namespace
 
 MetropolisMethod mmltMethod() {
-  return {{"mmlt", "multiplexed Metropolis light transport with isotropic small steps", kParameters},
-          smallSteps};
+  return {
+      {"mmlt", "multiplexed Metropolis light transport with isotropic small steps", kParameters},
+      smallSteps};
 }
 
 }  // namespace h2mc

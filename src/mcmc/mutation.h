@@ -3,10 +3,9 @@
 
 #include <string_view>
 
-#include "render/image/film.h"
-
 #include "mcmc/gaussian.h"
 #include "mcmc/target.h"
+#include "render/image/film.h"
 
 namespace h2mc {
 
@@ -18,7 +17,8 @@ struct ChainState {
   Path path;
   bool hasGaussian = false;
   Gaussian gaussian;
-  double bidirectional = 0;  // luminance of a whole bidirectional sample around the path; 0: unknown
+  double bidirectional =
+      0;  // luminance of a whole bidirectional sample around the path; 0: unknown
 
   // The path is about to change.
   void forget() {
@@ -30,8 +30,8 @@ struct ChainState {
 // How often derivatives were wanted and what came of it.
 struct DerivativeCounts {
   long long computed = 0;
-  long long notFinite = 0;   // the prior took their place
-  long long dimension = 0;   // too many coordinates for the derivative: likewise
+  long long notFinite = 0;  // the prior took their place
+  long long dimension = 0;  // too many coordinates for the derivative: likewise
 };
 
 // Seconds that sampled mutations spent in each part; see Profile.
@@ -69,7 +69,8 @@ class Mutation {
   }
 
   static void splatPath(const Path& path, double weight, Film& film) {
-    film.splat(path.filmX, path.filmY, path.contribution * static_cast<float>(weight / path.target));
+    film.splat(path.filmX, path.filmY,
+               path.contribution * static_cast<float>(weight / path.target));
   }
 };
 

@@ -59,7 +59,9 @@ nlohmann::json ChainStatistics::json(const std::vector<std::string>& kindNames) 
     kinds[kindNames[kind]] = rate(all);
     kinds[kindNames[kind]]["by path length"] = byLength;
   }
-  const auto share = [&](double seconds) { return profile.total > 0 ? seconds / profile.total : 0.0; };
+  const auto share = [&](double seconds) {
+    return profile.total > 0 ? seconds / profile.total : 0.0;
+  };
   nlohmann::json result = {
       {"mutations", mutations},
       {"mutation kinds", kinds},

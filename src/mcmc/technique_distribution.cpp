@@ -7,7 +7,8 @@ namespace h2mc {
 TechniqueDistribution::TechniqueDistribution(int minLength, int maxLength) : minLength_(minLength) {
   for (int length = minLength; length <= maxLength; ++length)
     for (int s = 0; s <= length; ++s) techniques_.push_back({s, length + 1 - s});
-  setWeights(std::vector<double>(techniques_.size(), 1), std::vector<bool>(techniques_.size(), true));
+  setWeights(std::vector<double>(techniques_.size(), 1),
+             std::vector<bool>(techniques_.size(), true));
 }
 
 int TechniqueDistribution::index(const Technique& technique) const {
@@ -38,7 +39,8 @@ void TechniqueDistribution::setWeights(const std::vector<double>& weights,
 }
 
 int TechniqueDistribution::choose(float u) const {
-  const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), u * cumulative_.back());
+  const auto found =
+      std::upper_bound(cumulative_.begin(), cumulative_.end(), u * cumulative_.back());
   return static_cast<int>(std::min(found, cumulative_.end() - 1) - cumulative_.begin());
 }
 

@@ -18,7 +18,9 @@ class TechniqueDistribution {
   void setWeights(const std::vector<double>& weights, const std::vector<bool>& possible);
 
   int size() const { return static_cast<int>(techniques_.size()); }
-  const Technique& technique(int index) const { return techniques_[static_cast<std::size_t>(index)]; }
+  const Technique& technique(int index) const {
+    return techniques_[static_cast<std::size_t>(index)];
+  }
   int index(const Technique& technique) const;
   int choose(float u) const;
   double probability(int index) const { return probabilities_[static_cast<std::size_t>(index)]; }

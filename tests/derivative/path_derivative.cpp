@@ -85,8 +85,7 @@ TEST_P(PathDerivative, FrozenTopologyGivesTheTracedValue) {
     double u[2 * kMaxPathLength];
     std::copy_n(path.sample.u.begin(), path.technique.dimension(), u);
     const double exact = replayLogTarget<double>(*scene_, path, u);
-    EXPECT_NEAR(exact, traced, 0.05)
-        << "s=" << path.technique.s << " t=" << path.technique.t;
+    EXPECT_NEAR(exact, traced, 0.05) << "s=" << path.technique.s << " t=" << path.technique.t;
     ++checked;
   });
   EXPECT_GT(checked, 100);
@@ -109,7 +108,8 @@ TEST_P(PathDerivative, SlowAgreesWithFiniteDifferences) {
     const auto fd = ad::finiteDifferences(
         [&](const double* x) { return replayLogTarget<double>(*scene_, path, x); }, u, n, 2e-3);
     double gradientScale = 1, hessianScale = 1;
-    for (int i = 0; i < n; ++i) gradientScale = std::max(gradientScale, double(std::abs(d.gradient[i])));
+    for (int i = 0; i < n; ++i)
+      gradientScale = std::max(gradientScale, double(std::abs(d.gradient[i])));
     for (int i = 0; i < n * (n + 1) / 2; ++i)
       hessianScale = std::max(hessianScale, double(std::abs(d.hessian[i])));
     for (int i = 0, k = 0; i < n; ++i) {

@@ -20,8 +20,8 @@ class OwnScenes : public testing::TestWithParam<std::string> {};
 TEST_P(OwnScenes, SlowIntegratorsAgree) {
   constexpr int kEdge = 16, kRuns = 8;
   const std::string& name = GetParam();
-  const Scene scene = readTestScene(
-      std::string(H2MC_SOURCE_DIR) + "/scenes/" + name + "/" + name + ".xml", 96, 72);
+  const Scene scene =
+      readTestScene(std::string(H2MC_SOURCE_DIR) + "/scenes/" + name + "/" + name + ".xml", 96, 72);
   const auto depth = std::pair<std::string, std::string>{"maxDepth", "5"};
   // Bidirectional path tracing sees every path that the chains see, with independent samples.
   const Runs trusted = renderRuns(scene, "bdpt", {depth}, 16, 64, kEdge);

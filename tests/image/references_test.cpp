@@ -5,7 +5,7 @@ namespace h2mc::test {
 namespace {
 
 struct Case {
-  std::string scene;       // below crosscheck, or torus, bathroom
+  std::string scene;  // below crosscheck, or torus, bathroom
   std::string integrator;
   int runs;
   long long samplesPerPixel;
@@ -27,8 +27,13 @@ TEST_P(References, SlowAgree) {
     GTEST_SKIP() << "the published references are not there: see H2MC_DATA_DIR";
   const std::string file =
       data + (large ? "/" + c.scene + "/" : std::string("/crosscheck/")) + c.scene + ".xml";
-  const Scene scene = readTestScene(file, c.scene == "torus" ? 256 : large ? 256 : 0,
-                                    c.scene == "torus" ? 192 : large ? 256 : 0);
+  const Scene scene = readTestScene(file,
+                                    c.scene == "torus" ? 256
+                                    : large            ? 256
+                                                       : 0,
+                                    c.scene == "torus" ? 192
+                                    : large            ? 256
+                                                       : 0);
   auto options = c.options;
   if (large) options.emplace_back("maxDepth", "8");
   const Runs runs = renderRuns(scene, c.integrator, options, c.runs, c.samplesPerPixel, edge);
@@ -46,8 +51,8 @@ std::vector<Case> cases() {
   for (const char* scene : {"diffuse_area", "plastic", "roughdielectric", "dielectric_constant"}) {
     list.push_back({scene, "bdpt", 8, 12, 1e-2});
     for (const char* integrator : {"mmlt", "h2mc"})
-      list.push_back({scene, integrator, 8, 16, 1.5e-2,
-                      {{"bootstrapSamples", "30000"}, {"chains", "256"}}});
+      list.push_back(
+          {scene, integrator, 8, 16, 1.5e-2, {{"bootstrapSamples", "30000"}, {"chains", "256"}}});
   }
   list.push_back({"torus", "path", 6, 16, 1.5e-2});
   list.push_back({"torus", "bdpt", 6, 10, 1.5e-2});

@@ -121,8 +121,8 @@ TEST_P(ChainOnToy, KeepsTheDistribution) {
                            mixture.isotropic, mixture.isotropic});
   HamiltonianSettings settings;
   settings.sigma = mixture.sigma;
-  kernels.small.push_back({std::make_unique<HamiltonianStep>(target, settings),
-                           mixture.hamiltonian, mixture.hamiltonian});
+  kernels.small.push_back({std::make_unique<HamiltonianStep>(target, settings), mixture.hamiltonian,
+                           mixture.hamiltonian});
 
   constexpr int kChains = 60000, kSteps = 25;
   const Histograms expected = Histograms::expected();
@@ -160,7 +160,8 @@ TEST_P(ChainOnToy, KeepsTheDistribution) {
     }
     if (cells < 1) continue;
     const double z = (std::cbrt(chi2 / cells) - (1 - 2 / (9 * cells))) / std::sqrt(2 / (9 * cells));
-    EXPECT_LT(z, 4) << mixture.name << ": table " << t << ", chi-square " << chi2 << " of " << cells;
+    EXPECT_LT(z, 4) << mixture.name << ": table " << t << ", chi-square " << chi2 << " of "
+                    << cells;
   }
   // The kernels did move.
   for (const auto& kind : statistics.acceptance)

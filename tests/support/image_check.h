@@ -59,7 +59,8 @@ inline std::vector<double> blockMeans(const Image& image, int edge, bool squared
         counts[k] += 1;
       }
     }
-  for (std::size_t k = 0; k < sums.size(); ++k) sums[k] /= squared ? counts[k] * counts[k] : counts[k];
+  for (std::size_t k = 0; k < sums.size(); ++k)
+    sums[k] /= squared ? counts[k] * counts[k] : counts[k];
   return sums;
 }
 

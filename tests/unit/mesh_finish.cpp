@@ -157,8 +157,8 @@ TEST(MeshPrimitives, CubeFacesOutwards) {
 TEST(MeshInScenes, BrokenMeshesAreOneMessageAtTheFilesName) {
   const SceneFolder folder;
   folder.write("bad.obj", "v 0 0 0\nf 1 2 3\n");
-  const std::string message = folder.error(sceneWith(
-      "<shape type=\"obj\"><string name=\"filename\" value=\"bad.obj\"/></shape>"));
+  const std::string message = folder.error(
+      sceneWith("<shape type=\"obj\"><string name=\"filename\" value=\"bad.obj\"/></shape>"));
   EXPECT_NE(message.find("scene.xml:2:50: error: shape \"obj\": broken mesh: bad.obj:2: vertex 2"),
             std::string::npos)
       << message;
@@ -166,12 +166,14 @@ TEST(MeshInScenes, BrokenMeshesAreOneMessageAtTheFilesName) {
 
 TEST(MeshInScenes, ShapesArriveInWorldSpace) {
   const SceneFolder folder;
-  const std::string move = "<transform name=\"toWorld\"><scale value=\"2\"/><rotate x=\"1\" "
-                           "angle=\"-90\"/><translate y=\"5\"/></transform>";
+  const std::string move =
+      "<transform name=\"toWorld\"><scale value=\"2\"/><rotate x=\"1\" "
+      "angle=\"-90\"/><translate y=\"5\"/></transform>";
   const Scene scene = folder.read(sceneWith(
-      "<shape type=\"sphere\"><point name=\"center\" x=\"0\" y=\"0\" z=\"1\"/>" + move + "</shape>" +
-      "<shape type=\"disk\">" + move + "</shape><shape type=\"cube\">" + move + "</shape>" +
-      "<shape type=\"rectangle\"><boolean name=\"flipNormals\" value=\"true\"/>" + move + "</shape>"));
+      "<shape type=\"sphere\"><point name=\"center\" x=\"0\" y=\"0\" z=\"1\"/>" + move +
+      "</shape>" + "<shape type=\"disk\">" + move + "</shape><shape type=\"cube\">" + move +
+      "</shape>" + "<shape type=\"rectangle\"><boolean name=\"flipNormals\" value=\"true\"/>" +
+      move + "</shape>"));
   const auto& sphere = std::get<Sphere>(scene.shapes[0].geometry);
   expectNear(sphere.center, {0, 7, 0});
   EXPECT_NEAR(sphere.radius, 2, 1e-5f);
@@ -187,8 +189,8 @@ TEST(MeshInScenes, ShapesArriveInWorldSpace) {
 TEST(MeshInScenes, ShapesWithoutAreaAreLeftOutAndNamed) {
   const SceneFolder folder;
   folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
-  const Scene scene = folder.read(sceneWith(
-      "<shape type=\"obj\"><string name=\"filename\" value=\"flat.obj\"/></shape>"));
+  const Scene scene = folder.read(
+      sceneWith("<shape type=\"obj\"><string name=\"filename\" value=\"flat.obj\"/></shape>"));
   EXPECT_EQ(scene.shapes.size(), 1u);
   ASSERT_GE(scene.notes.size(), 2u);
   EXPECT_NE(scene.notes[0].find("1 triangle without area"), std::string::npos) << scene.notes[0];

@@ -35,9 +35,9 @@ std::string objError(const std::string& text) {
 }
 
 TEST(MeshObj, TrianglesQuadsAndPolygons) {
-  const MeshData m = obj(
-      "# a comment\r\nmtllib a.mtl\r\nv 0 0 0\nv 1 0 0 1\nv 1 1 0\nv 0 1 0\nv -1 .5 0\n"
-      "usemtl red\ns 1\nf 1 2 3\nf 1 2 3 4 # quad\nf 1 2 3 4 5\nl 1 2\n");
+  const MeshData m =
+      obj("# a comment\r\nmtllib a.mtl\r\nv 0 0 0\nv 1 0 0 1\nv 1 1 0\nv 0 1 0\nv -1 .5 0\n"
+          "usemtl red\ns 1\nf 1 2 3\nf 1 2 3 4 # quad\nf 1 2 3 4 5\nl 1 2\n");
   EXPECT_EQ(m.triangles.size(), 6u);
   EXPECT_EQ(m.positions.size(), 5u);
   EXPECT_TRUE(m.normals.empty());
@@ -46,8 +46,7 @@ TEST(MeshObj, TrianglesQuadsAndPolygons) {
 }
 
 TEST(MeshObj, IndicesOfAllForms) {
-  const std::string head =
-      "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0.25\nvt 1 0\nvt 0 1\nvn 0 0 1\n";
+  const std::string head = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0.25\nvt 1 0\nvt 0 1\nvn 0 0 1\n";
   const MeshData full = obj(head + "f 1/1/1 2/2/1 3/3/1\n");
   EXPECT_EQ(full.normals.size(), 3u);
   ASSERT_EQ(full.uvs.size(), 3u);
@@ -62,8 +61,7 @@ TEST(MeshObj, IndicesOfAllForms) {
 
 TEST(MeshObj, VerticesAreSharedByValueWithinAGroup) {
   // Two triangles that repeat their corners: one smooth surface, but not across groups.
-  const std::string corners =
-      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\n";
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\n";
   EXPECT_EQ(obj(corners + "f 4 5 6\n").positions.size(), 4u);
   EXPECT_EQ(obj(corners + "g other\nf 4 5 6\n").positions.size(), 6u);
 }
@@ -107,7 +105,8 @@ template <class Value>
 void append(std::string& out, Value value, bool big) {
   char bytes[sizeof value];
   std::memcpy(bytes, &value, sizeof value);
-  if (big == (std::endian::native == std::endian::little)) std::reverse(bytes, bytes + sizeof value);
+  if (big == (std::endian::native == std::endian::little))
+    std::reverse(bytes, bytes + sizeof value);
   out.append(bytes, sizeof value);
 }
 
@@ -120,11 +119,12 @@ void expectSquare(const MeshData& m) {
 }
 
 TEST(MeshPly, Ascii) {
-  const MeshData m = ply(plyHeader("ascii", kXyz + "property float nx\nproperty float ny\n"
-                                            "property float nz\nproperty float s\nproperty float t\n"
-                                            "property uchar red\n") +
-                         "0 0 .5 0 0 1 0 0 255\n1 0 .5 0 0 1 1 0 255\n1 1 .5 0 0 1 1 1 255\n"
-                         "0 1 .5 0 0 1 0 1 255\n4 0 1 2 3\n");
+  const MeshData m =
+      ply(plyHeader("ascii", kXyz + "property float nx\nproperty float ny\n"
+                                    "property float nz\nproperty float s\nproperty float t\n"
+                                    "property uchar red\n") +
+          "0 0 .5 0 0 1 0 0 255\n1 0 .5 0 0 1 1 0 255\n1 1 .5 0 0 1 1 1 255\n"
+          "0 1 .5 0 0 1 0 1 255\n4 0 1 2 3\n");
   expectSquare(m);
   ASSERT_EQ(m.normals.size(), 4u);
   EXPECT_EQ(m.normals[3], Vec3f(0, 0, 1));
@@ -144,8 +144,10 @@ TEST(MeshPly, BinaryOfBothByteOrdersAndPrecisions) {
       for (const auto& corner : corners) {
         append<std::uint8_t>(text, 7, big);
         for (float x : corner) {
-          if (isDouble) append<double>(text, static_cast<double>(x), big);
-          else append<float>(text, x, big);
+          if (isDouble)
+            append<double>(text, static_cast<double>(x), big);
+          else
+            append<float>(text, x, big);
         }
       }
       append<std::uint8_t>(text, 4, big);
@@ -206,14 +208,21 @@ std::string encode(const SerializedMesh& mesh, int version) {
   append<std::uint64_t>(raw, mesh.positions.size(), false);
   append<std::uint64_t>(raw, mesh.triangles.size(), false);
   const auto number = [&](float x) {
-    if (mesh.isDouble) append<double>(raw, static_cast<double>(x), false);
-    else append<float>(raw, x, false);
+    if (mesh.isDouble)
+      append<double>(raw, static_cast<double>(x), false);
+    else
+      append<float>(raw, x, false);
   };
-  for (const auto& p : mesh.positions) for (float x : p) number(x);
-  for (const auto& n : mesh.normals) for (float x : n) number(x);
-  for (const auto& uv : mesh.uvs) for (float x : uv) number(x);
-  if (mesh.colors) for (std::size_t i = 0; i < 3 * mesh.positions.size(); ++i) number(0.5f);
-  for (const auto& t : mesh.triangles) for (std::uint32_t i : t) append(raw, i, false);
+  for (const auto& p : mesh.positions)
+    for (float x : p) number(x);
+  for (const auto& n : mesh.normals)
+    for (float x : n) number(x);
+  for (const auto& uv : mesh.uvs)
+    for (float x : uv) number(x);
+  if (mesh.colors)
+    for (std::size_t i = 0; i < 3 * mesh.positions.size(); ++i) number(0.5f);
+  for (const auto& t : mesh.triangles)
+    for (std::uint32_t i : t) append(raw, i, false);
   uLongf size = compressBound(raw.size());
   std::string packed(size, '\0');
   compress(reinterpret_cast<Bytef*>(packed.data()), &size,
@@ -228,8 +237,10 @@ std::string encode(const SerializedMesh& mesh, int version) {
 std::string encodeFile(const std::vector<SerializedMesh>& meshes, int version) {
   std::string out, table;
   for (const SerializedMesh& mesh : meshes) {
-    if (version == 4) append<std::uint64_t>(table, out.size(), false);
-    else append<std::uint32_t>(table, static_cast<std::uint32_t>(out.size()), false);
+    if (version == 4)
+      append<std::uint64_t>(table, out.size(), false);
+    else
+      append<std::uint32_t>(table, static_cast<std::uint32_t>(out.size()), false);
     out += encode(mesh, version);
   }
   append<std::uint32_t>(table, static_cast<std::uint32_t>(meshes.size()), false);

@@ -9,9 +9,8 @@ namespace h2mc::testing {
 namespace {
 
 bool hasNote(const Scene& scene, const std::string& part) {
-  return std::any_of(scene.notes.begin(), scene.notes.end(), [&](const std::string& note) {
-    return note.find(part) != std::string::npos;
-  });
+  return std::any_of(scene.notes.begin(), scene.notes.end(),
+                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
 }
 
 Scene readBody(const std::string& body) { return SceneFolder().read(sceneWith(body)); }
@@ -34,7 +33,8 @@ TEST(SceneIntegrator, OwnIntegratorsByTheirTables) {
 
 TEST(SceneIntegrator, MitsubasPathIsOurs) {
   const Scene scene = readBody(
-      "<integrator type=\"path\"><integer name=\"maxDepth\" value=\"-1\"/><integer name=\"rrDepth\" "
+      "<integrator type=\"path\"><integer name=\"maxDepth\" value=\"-1\"/><integer "
+      "name=\"rrDepth\" "
       "value=\"100\"/><boolean name=\"strictNormals\" value=\"true\"/></integrator>");
   EXPECT_EQ(scene.integrator.integrator(), "path");
   EXPECT_EQ(scene.integrator.integer("maxDepth"), -1);
@@ -58,7 +58,8 @@ TEST(SceneIntegrator, DptBlockWins) {
       "<integer name=\"spp\" value=\"256\"/><integer name=\"maxdepth\" value=\"8\"/>"
       "<integer name=\"mindepth\" value=\"-1\"/><float name=\"perturbstddev\" value=\"0.03\"/>"
       "<integer name=\"numchains\" value=\"64\"/><float name=\"lensperturbprob\" value=\"0.5\"/>"
-      "<integer name=\"seedoffset\" value=\"3\"/><float name=\"roughnessthreshold\" value=\"0.01\"/>"
+      "<integer name=\"seedoffset\" value=\"3\"/><float name=\"roughnessthreshold\" "
+      "value=\"0.01\"/>"
       "</dpt><integrator type=\"path\"><integer name=\"rrDepth\" value=\"3\"/></integrator>");
   EXPECT_EQ(scene.integrator.integrator(), "h2mc");
   EXPECT_EQ(scene.integrator.integer("mutationsPerPixel"), 256);

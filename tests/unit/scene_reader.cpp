@@ -11,9 +11,8 @@ namespace h2mc::testing {
 namespace {
 
 bool hasNote(const Scene& scene, const std::string& part) {
-  return std::any_of(scene.notes.begin(), scene.notes.end(), [&](const std::string& note) {
-    return note.find(part) != std::string::npos;
-  });
+  return std::any_of(scene.notes.begin(), scene.notes.end(),
+                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
 }
 
 std::string withSensor(const std::string& sensor) {
@@ -111,10 +110,14 @@ TEST(SceneReader, FieldOfView) {
   const auto tangents = [&](const std::string& parameters) {
     const Scene scene = folder.read(withSensor(
         "<sensor type=\"perspective\"><film type=\"hdrfilm\"><integer name=\"width\" value=\"40\"/>"
-        "<integer name=\"height\" value=\"20\"/></film>" + parameters + "</sensor>"));
-    const Vec3f x = scene.camera.direction<float>(0, 0.5f), y = scene.camera.direction<float>(0.5f, 0);
+        "<integer name=\"height\" value=\"20\"/></film>" +
+        parameters + "</sensor>"));
+    const Vec3f x = scene.camera.direction<float>(0, 0.5f),
+                y = scene.camera.direction<float>(0.5f, 0);
     const Vec3f f = scene.camera.forward();
-    const auto tangent = [&](const Vec3f& d) { return std::tan(std::acos(std::min(1.f, dot(d, f)))); };
+    const auto tangent = [&](const Vec3f& d) {
+      return std::tan(std::acos(std::min(1.f, dot(d, f))));
+    };
     return std::pair(tangent(x), tangent(y));
   };
   const auto near = [](std::pair<float, float> t, float x) {
@@ -156,8 +159,10 @@ TEST(SceneReader, SnakeCaseNames) {
       "<scene version=\"3.0.0\"><sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/>"
       "<string name=\"fov_axis\" value=\"y\"/><float name=\"near_clip\" value=\"0.25\"/>"
       "<transform name=\"to_world\"><translate value=\"1, 2, 3\"/></transform>"
-      "<sampler type=\"independent\"><integer name=\"sample_count\" value=\"9\"/></sampler></sensor>"
-      "<emitter type=\"point\"/><shape type=\"sphere\"><boolean name=\"flip_normals\" value=\"true\"/>"
+      "<sampler type=\"independent\"><integer name=\"sample_count\" "
+      "value=\"9\"/></sampler></sensor>"
+      "<emitter type=\"point\"/><shape type=\"sphere\"><boolean name=\"flip_normals\" "
+      "value=\"true\"/>"
       "<bsdf type=\"dielectric\"><float name=\"int_ior\" value=\"1.3\"/></bsdf></shape>"
       "<integrator type=\"path\"><integer name=\"max_depth\" value=\"4\"/></integrator></scene>");
   EXPECT_FLOAT_EQ(scene.camera.nearClip, 0.25f);
@@ -170,7 +175,8 @@ TEST(SceneReader, MaterialsAreSharedByReferences) {
   const SceneFolder folder;
   const Scene scene = folder.read(sceneWith(
       "<shape type=\"sphere\"><ref id=\"later\"/></shape>"
-      "<bsdf type=\"diffuse\" id=\"later\"><rgb name=\"reflectance\" value=\"0.1, 0.2, 0.3\"/></bsdf>"
+      "<bsdf type=\"diffuse\" id=\"later\"><rgb name=\"reflectance\" value=\"0.1, 0.2, "
+      "0.3\"/></bsdf>"
       "<shape type=\"disk\"><ref name=\"bsdf\" id=\"later\"/></shape>"
       "<alias id=\"later\" as=\"other\"/><shape type=\"disk\"><ref id=\"other\"/></shape>"));
   ASSERT_EQ(scene.shapes.size(), 4u);
@@ -186,10 +192,12 @@ TEST(SceneReader, TwosidedAndMask) {
   const SceneFolder folder;
   const Scene scene = folder.read(sceneWith(
       "<shape type=\"disk\"><bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf></shape>"
-      "<shape type=\"disk\"><bsdf type=\"twosided\"><bsdf type=\"diffuse\"/><bsdf type=\"conductor\"/></bsdf></shape>"
+      "<shape type=\"disk\"><bsdf type=\"twosided\"><bsdf type=\"diffuse\"/><bsdf "
+      "type=\"conductor\"/></bsdf></shape>"
       "<shape type=\"disk\"><bsdf type=\"mask\"><float name=\"opacity\" value=\"0.25\"/>"
       "<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf></bsdf></shape>"
-      "<shape type=\"disk\"><bsdf type=\"mask\"><float name=\"opacity\" value=\"1\"/><bsdf type=\"diffuse\"/></bsdf></shape>"
+      "<shape type=\"disk\"><bsdf type=\"mask\"><float name=\"opacity\" value=\"1\"/><bsdf "
+      "type=\"diffuse\"/></bsdf></shape>"
       "<shape type=\"disk\"><bsdf type=\"dielectric\"/></shape>"));
   const auto material = [&](std::size_t shape) -> const Material& {
     return scene.materials.at(static_cast<std::size_t>(scene.shapes.at(shape).material));
@@ -210,11 +218,12 @@ TEST(SceneReader, TwosidedAndMask) {
 
 TEST(SceneReader, LightsKnowTheirShapes) {
   const SceneFolder folder;
-  const Scene scene = folder.read(sceneWith(
-      "<shape type=\"rectangle\"/><shape type=\"rectangle\"><emitter type=\"area\">"
-      "<rgb name=\"radiance\" value=\"1\"/></emitter></shape>"
-      "<shape type=\"disk\"><luminaire type=\"area\"><spectrum name=\"radiance\" value=\"0\"/></luminaire></shape>"
-      "<emitter type=\"constant\"><rgb name=\"radiance\" value=\"1\"/></emitter>"));
+  const Scene scene = folder.read(
+      sceneWith("<shape type=\"rectangle\"/><shape type=\"rectangle\"><emitter type=\"area\">"
+                "<rgb name=\"radiance\" value=\"1\"/></emitter></shape>"
+                "<shape type=\"disk\"><luminaire type=\"area\"><spectrum name=\"radiance\" "
+                "value=\"0\"/></luminaire></shape>"
+                "<emitter type=\"constant\"><rgb name=\"radiance\" value=\"1\"/></emitter>"));
   EXPECT_EQ(scene.lights.size(), 3u);
   const int light = scene.shapes[1].light;
   ASSERT_GE(light, 0);
@@ -234,7 +243,8 @@ TEST(SceneReader, LightsKnowTheirShapes) {
 TEST(SceneReader, WhatNothingRefersToIsLeftOut) {
   const SceneFolder folder;
   const Scene scene = folder.read(sceneWith(
-      "<texture type=\"bitmap\" id=\"photo\"><string name=\"filename\" value=\"lost.png\"/></texture>"
+      "<texture type=\"bitmap\" id=\"photo\"><string name=\"filename\" "
+      "value=\"lost.png\"/></texture>"
       "<bsdf type=\"diffuse\" id=\"unused\"><ref name=\"reflectance\" id=\"photo\"/></bsdf>"));
   EXPECT_TRUE(hasNote(scene, "left out: nothing refers to texture \"photo\""));
   EXPECT_TRUE(hasNote(scene, "left out: nothing refers to bsdf \"unused\""));
@@ -292,7 +302,8 @@ TEST(SceneReader, Colors) {
   expectColor(color("<float name=\"reflectance\" value=\"0.5\"/>"), 0.5f, 0.5f, 0.5f);
   expectColor(color("<rgb name=\"reflectance\" value=\"#ff0080\"/>"), 1, 0, 128 / 255.f);
   expectColor(color("<srgb name=\"reflectance\" value=\"#ff0080\"/>"), 1, 0, 0.2158605f);
-  expectColor(color("<srgb name=\"reflectance\" value=\"0.5\"/>"), 0.2140411f, 0.2140411f, 0.2140411f);
+  expectColor(color("<srgb name=\"reflectance\" value=\"0.5\"/>"), 0.2140411f, 0.2140411f,
+              0.2140411f);
 }
 
 TEST(SceneReader, SameSceneTwiceIsTheSame) {

@@ -33,7 +33,8 @@ TEST(SceneTransform, EachOperation) {
   expectPoint(transform("<scale value=\"2, 3, 4\"/>"), p, {2, 6, 12});
   expectPoint(transform("<rotate z=\"1\" angle=\"90\"/>"), p, {-2, 1, 3});
   expectPoint(transform("<rotate x=\"5\" angle=\"90\"/>"), p, {1, -3, 2});
-  expectPoint(transform("<matrix value=\"1 0 0 10, 0 2 0 20, 0 0 3 30, 0 0 0 1\"/>"), p, {11, 24, 39});
+  expectPoint(transform("<matrix value=\"1 0 0 10, 0 2 0 20, 0 0 3 30, 0 0 0 1\"/>"), p,
+              {11, 24, 39});
   expectPoint(transform("<matrix value=\"0 1 0 1 0 0 0 0 1\"/>"), p, {2, 1, 3});
 }
 
@@ -41,7 +42,8 @@ TEST(SceneTransform, OperationsApplyInTheirOrder) {
   const Vec3f p(1, 0, 0);
   expectPoint(transform("<translate x=\"1\"/><scale value=\"2\"/>"), p, {4, 0, 0});
   expectPoint(transform("<scale value=\"2\"/><translate x=\"1\"/>"), p, {3, 0, 0});
-  expectPoint(transform("<rotate z=\"1\" angle=\"90\"/><translate x=\"1\"/><scale y=\"3\"/>"), p, {1, 3, 0});
+  expectPoint(transform("<rotate z=\"1\" angle=\"90\"/><translate x=\"1\"/><scale y=\"3\"/>"), p,
+              {1, 3, 0});
 }
 
 TEST(SceneTransform, LookAtIsMitsubas) {
@@ -62,7 +64,8 @@ TEST(SceneValues, Numbers) {
   EXPECT_EQ(parseNumber("+2"), 2);
   EXPECT_EQ(parseNumber("-1e-3"), -1e-3);
   EXPECT_EQ(parseNumber("1e-999"), 0);
-  for (const char* bad : {"", " ", "x", "1x", "--1", "+-1", "0x10", "1,5", "nan", "-inf", "1e999", "1e39"})
+  for (const char* bad :
+       {"", " ", "x", "1x", "--1", "+-1", "0x10", "1,5", "nan", "-inf", "1e999", "1e39"})
     EXPECT_THROW(parseNumber(bad), ValueError) << bad;
   EXPECT_EQ(parseInteger("-12"), -12);
   EXPECT_EQ(parseInteger("+12"), 12);

@@ -9,8 +9,8 @@ namespace h2mc {
 struct Filter {
   enum class Kind { kBox, kTent, kGaussian, kMitchell };
   Kind kind = Kind::kBox;
-  float radius = 0.5f;   // box 0.5, tent 1, gaussian 4 * stddev, mitchell 2
-  float stddev = 0.5f;   // gaussian
+  float radius = 0.5f;             // box 0.5, tent 1, gaussian 4 * stddev, mitchell 2
+  float stddev = 0.5f;             // gaussian
   float b = 1.f / 3, c = 1.f / 3;  // mitchell
 
   float evaluate(float x) const;  // one dimension, x in pixels; not normalised; 0 beyond the radius

@@ -22,7 +22,8 @@ struct Frame {
     const S sign = std::copysign(S(1), value(n.z));
     const T a = S(-1) / (n.z + sign);
     const T b = n.x * n.y * a;
-    return {{n.x * n.x * a * sign + S(1), b * sign, n.x * -sign}, {b, n.y * n.y * a + sign, -n.y}, n};
+    return {
+        {n.x * n.x * a * sign + S(1), b * sign, n.x * -sign}, {b, n.y * n.y * a + sign, -n.y}, n};
   }
 };
 

@@ -50,8 +50,8 @@ std::vector<Vec3f> computeNormals(const std::vector<Vec3f>& positions,
 bool hasArea(const TriangleMesh& mesh, const glm::uvec3& t) {
   if (t.x == t.y || t.y == t.z || t.z == t.x) return false;
   const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
-  const double longest = std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b),
-                                   glm::dot(a - c, a - c)});
+  const double longest =
+      std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
   return glm::length(glm::cross(b - a, c - a)) > 1e-9 * longest && longest > 1e-30;
 }
 

@@ -72,8 +72,8 @@ class ObjReader {
     const long long written = text_.toInteger(word);
     const long long i = written < 0 ? static_cast<long long>(count) + written : written - 1;
     if (written == 0 || i < 0 || i >= static_cast<long long>(count))
-      text_.fail(std::string(what) + " " + std::to_string(written) + " is out of range: there are " +
-                 std::to_string(count) + " so far");
+      text_.fail(std::string(what) + " " + std::to_string(written) +
+                 " is out of range: there are " + std::to_string(count) + " so far");
     return static_cast<std::size_t>(i);
   }
 

@@ -15,11 +15,15 @@ enum class Format { kAscii, kLittle, kBig };
 std::size_t sizeOf(Type type) {
   switch (type) {
     case Type::kInt8:
-    case Type::kUint8: return 1;
+    case Type::kUint8:
+      return 1;
     case Type::kInt16:
-    case Type::kUint16: return 2;
-    case Type::kDouble: return 8;
-    default: return 4;
+    case Type::kUint16:
+      return 2;
+    case Type::kDouble:
+      return 8;
+    default:
+      return 4;
   }
 }
 
@@ -140,14 +144,22 @@ class PlyReader {
     const bool little = std::endian::native == std::endian::little;
     if (little != (format_ == Format::kLittle)) std::reverse(bytes, bytes + size);
     switch (type) {
-      case Type::kInt8: return as<std::int8_t>(bytes);
-      case Type::kUint8: return as<std::uint8_t>(bytes);
-      case Type::kInt16: return as<std::int16_t>(bytes);
-      case Type::kUint16: return as<std::uint16_t>(bytes);
-      case Type::kInt32: return as<std::int32_t>(bytes);
-      case Type::kUint32: return as<std::uint32_t>(bytes);
-      case Type::kFloat: return static_cast<double>(as<float>(bytes));
-      case Type::kDouble: return as<double>(bytes);
+      case Type::kInt8:
+        return as<std::int8_t>(bytes);
+      case Type::kUint8:
+        return as<std::uint8_t>(bytes);
+      case Type::kInt16:
+        return as<std::int16_t>(bytes);
+      case Type::kUint16:
+        return as<std::uint16_t>(bytes);
+      case Type::kInt32:
+        return as<std::int32_t>(bytes);
+      case Type::kUint32:
+        return as<std::uint32_t>(bytes);
+      case Type::kFloat:
+        return static_cast<double>(as<float>(bytes));
+      case Type::kDouble:
+        return as<double>(bytes);
     }
     return 0;
   }
@@ -188,8 +200,8 @@ class PlyReader {
     if (!mesh_.positions.empty()) fail("two lists of vertices");
     // Where each property goes: 0-2 position, 3-5 normal, 6-7 texture coordinates.
     static const std::pair<const char*, int> kTargets[] = {
-        {"x", 0}, {"y", 1}, {"z", 2}, {"nx", 3}, {"ny", 4}, {"nz", 5}, {"u", 6}, {"v", 7},
-        {"s", 6}, {"t", 7}, {"texture_u", 6}, {"texture_v", 7}};
+        {"x", 0}, {"y", 1}, {"z", 2}, {"nx", 3}, {"ny", 4},        {"nz", 5},
+        {"u", 6}, {"v", 7}, {"s", 6}, {"t", 7},  {"texture_u", 6}, {"texture_v", 7}};
     std::vector<int> targets;
     bool has[8] = {};
     for (const Property& p : element.properties) {

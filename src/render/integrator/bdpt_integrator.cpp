@@ -15,16 +15,17 @@ class BdptSampler final : public PixelSampler {
                 Film& film, SampleTally& tally) override {
     Random random(seed, pixel, pass);
     const auto width = static_cast<std::uint64_t>(film.width());
-    const float x = (static_cast<float>(pixel % width) + random.uniform()) / static_cast<float>(width);
-    const float y = (static_cast<float>(pixel / width) + random.uniform()) /
-                    static_cast<float>(film.height());
+    const float x =
+        (static_cast<float>(pixel % width) + random.uniform()) / static_cast<float>(width);
+    const float y =
+        (static_cast<float>(pixel / width) + random.uniform()) / static_cast<float>(film.height());
     double added = 0;
-    tally.notFinite += sampler_.sample(
-        scene, random, std::min(x, kBelowOne), std::min(y, kBelowOne), minLength_,
-        [&](const BidirectionalSampler::Connection& c) {
-          film.splat(c.filmX, c.filmY, c.contribution);
-          added += luminance(c.contribution);
-        });
+    tally.notFinite +=
+        sampler_.sample(scene, random, std::min(x, kBelowOne), std::min(y, kBelowOne), minLength_,
+                        [&](const BidirectionalSampler::Connection& c) {
+                          film.splat(c.filmX, c.filmY, c.contribution);
+                          added += luminance(c.contribution);
+                        });
     return added;
   }
 
@@ -52,7 +53,8 @@ class BdptIntegrator final : public Integrator {
 constexpr Parameter kParameters[] = {
     kMaxDepthParameter,
     kMinDepthParameter,
-    {"samplesPerPixel", ParameterType::kInteger, "64", "samples for each pixel, if no budget is given"},
+    {"samplesPerPixel", ParameterType::kInteger, "64",
+     "samples for each pixel, if no budget is given"},
 };
 
 }  // namespace

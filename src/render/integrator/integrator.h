@@ -35,15 +35,16 @@ struct RenderRequest {
   RenderBudget budget;
   std::uint64_t seed = 0;
   int threads = 0;  // 0: one a core
-  std::function<void(const RenderProgress&)> progress;  // called from the rendering thread; may be empty
-  const std::atomic<bool>* stop = nullptr;              // set: end in order, keep what was done
+  std::function<void(const RenderProgress&)>
+      progress;                             // called from the rendering thread; may be empty
+  const std::atomic<bool>* stop = nullptr;  // set: end in order, keep what was done
 };
 
 struct RenderResult {
   Image image;
   double wallSeconds = 0, cpuSeconds = 0;
-  long long samples = 0;   // all of them, not a pixel
-  std::string sampleUnit;  // "samples" or "mutations"
+  long long samples = 0;                             // all of them, not a pixel
+  std::string sampleUnit;                            // "samples" or "mutations"
   double meanLuminance = 0, meanLuminanceError = 0;  // of the image; its standard error
   bool interrupted = false;
   nlohmann::json statistics;

@@ -31,11 +31,12 @@ double cpuClock() {
 void parallelFor(int threads, int count, const std::function<void(int)>& work) {
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<int>(0, count, 1),
-                      [&](const tbb::blocked_range<int>& range) {
-                        for (int i = range.begin(); i < range.end(); ++i) work(i);
-                      },
-                      tbb::simple_partitioner());
+    tbb::parallel_for(
+        tbb::blocked_range<int>(0, count, 1),
+        [&](const tbb::blocked_range<int>& range) {
+          for (int i = range.begin(); i < range.end(); ++i) work(i);
+        },
+        tbb::simple_partitioner());
   });
 }
 

@@ -55,9 +55,9 @@ class PathSampler final : public PixelSampler {
       const PathVertex<float> vertex = arriveAt<float>(scene, ray, id);
       const int light = scene.shapes[id.shape].light;
       if (counts && light >= 0)
-        radiance += finiteOrCounted(hitAreaLight<float>(scene, vertex, ray.direction, light,
-                                                        length + 1, kUnidirectional),
-                                    tally);
+        radiance += finiteOrCounted(
+            hitAreaLight<float>(scene, vertex, ray.direction, light, length + 1, kUnidirectional),
+            tally);
       if (length == options_.maxDepth) return radiance;
       // s = 1, a path one edge longer
       if (length + 1 >= options_.minDepth) radiance += direct(scene, random, vertex, id, tally);
@@ -99,7 +99,8 @@ class PathIntegrator final : public Integrator {
   explicit PathIntegrator(const OptionSet& options) : options_(options) {}
 
   RenderResult render(const Scene& scene, const RenderRequest& request) override {
-    const PathOptions path{options_.integer("minDepth"), maxPathLength(options_.integer("maxDepth")),
+    const PathOptions path{options_.integer("minDepth"),
+                           maxPathLength(options_.integer("maxDepth")),
                            options_.integer("rrDepth")};
     return renderSamples(scene, request, options_.integer("samplesPerPixel"),
                          [&] { return std::make_unique<PathSampler>(path); });
@@ -113,7 +114,8 @@ constexpr Parameter kParameters[] = {
     kMaxDepthParameter,
     kMinDepthParameter,
     {"rrDepth", ParameterType::kInteger, "5", "length from which Russian roulette may end a path"},
-    {"samplesPerPixel", ParameterType::kInteger, "64", "samples for each pixel, if no budget is given"},
+    {"samplesPerPixel", ParameterType::kInteger, "64",
+     "samples for each pixel, if no budget is given"},
 };
 
 }  // namespace

@@ -35,9 +35,8 @@ RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
       for (int x = 0; x < width; ++x) {
         const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width) +
                            static_cast<std::uint64_t>(x);
-        const double added = group.sampler->sample(scene, request.seed, pixel,
-                                                   static_cast<std::uint64_t>(round), group.film,
-                                                   tally);
+        const double added = group.sampler->sample(
+            scene, request.seed, pixel, static_cast<std::uint64_t>(round), group.film, tally);
         tally.luminance += added;
         tally.squares += added * added;
         ++tally.samples;
@@ -64,8 +63,8 @@ RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
   result.sampleUnit = "samples";
   if (n > 0) {
     result.meanLuminance = total.luminance / n;
-    result.meanLuminanceError =
-        std::sqrt(std::max(0.0, total.squares / n - result.meanLuminance * result.meanLuminance) / n);
+    result.meanLuminanceError = std::sqrt(
+        std::max(0.0, total.squares / n - result.meanLuminance * result.meanLuminance) / n);
   }
   result.statistics = {{"samples", total.samples},
                        {"samples per pixel", rounds.rounds},

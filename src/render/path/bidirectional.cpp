@@ -53,8 +53,7 @@ void BidirectionalSampler::draw(const Scene& scene, Random& random, float filmX,
   const bool emitted = own.s >= 2;
   light.sample.choice[0] = emitted ? given->sample.choice[at(own.lightPick())] : random.uniform();
   for (int i = 0; i < 4; ++i)
-    light.sample.u[at(i)] =
-        emitted ? given->sample.u[at(own.lightOffset() + i)] : random.uniform();
+    light.sample.u[at(i)] = emitted ? given->sample.u[at(own.lightOffset() + i)] : random.uniform();
   if (!pickLight(scene, light.sample.choice[0], light.lightIndex, light.lightPrimitive)) return;
   for (int i = 1; i < maxLength_; ++i) {
     if (i > 1) {

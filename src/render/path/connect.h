@@ -73,11 +73,12 @@ Contribution<T> connectToLight(const Scene& scene, const PathVertex<T>& vertex, 
                                Techniques techniques, DirectLight<T>& direct) {
   return std::visit(
       [&](const auto& l) -> Contribution<T> {
-        direct = l.template sampleDirect<T>(scene.lightContext(), primitive, vertex.point.p, u0, u1);
+        direct =
+            l.template sampleDirect<T>(scene.lightContext(), primitive, vertex.point.p, u0, u1);
         if (!(value(direct.directPdf) > 0)) return Contribution<T>::none();
         const Vec3<T> wo = vertex.point.shading.toLocal(direct.direction);
-        const BsdfValue<T> e = evaluateMaterial<T>(scene.bsdfs, materialAt(scene, id),
-                                                   vertex.point.uv, vertex.wi, wo);
+        const BsdfValue<T> e =
+            evaluateMaterial<T>(scene.bsdfs, materialAt(scene, id), vertex.point.uv, vertex.wi, wo);
         const Scalar<T> pick = scene.lightPicker.probability(light);
         const T inverse = T(1) / (direct.directPdf * pick);
         Contribution<T> c{vertex.throughput * direct.radiance * e.value * inverse, T(1)};
@@ -105,8 +106,8 @@ Contribution<T> connectVertices(const Scene& scene, const PathVertex<T>& camera,
   if (!(value(inverse2) < std::numeric_limits<Scalar<T>>::max())) return Contribution<T>::none();
   const Vec3<T> toLight = edge * sqrt(inverse2);
   const Vec3<T> wo = camera.point.shading.toLocal(toLight);
-  const BsdfValue<T> ec = evaluateMaterial<T>(scene.bsdfs, materialAt(scene, cameraId),
-                                              camera.point.uv, camera.wi, wo);
+  const BsdfValue<T> ec =
+      evaluateMaterial<T>(scene.bsdfs, materialAt(scene, cameraId), camera.point.uv, camera.wi, wo);
   if (!(value(ec.pdf) > 0)) return Contribution<T>::none();
   const Vec3<T> toCamera = light.point.shading.toLocal(-toLight);
   const BsdfValue<T> el = evaluateMaterial<T>(scene.bsdfs, materialAt(scene, lightId),
@@ -114,9 +115,8 @@ Contribution<T> connectVertices(const Scene& scene, const PathVertex<T>& camera,
   const T cosCamera = abs(dot(camera.point.ng, toLight));
   const T cosLight = abs(dot(light.point.ng, toLight));
   const T spread = cosLight * inverse2;
-  Contribution<T> c{camera.throughput * ec.value * light.throughput * el.value *
-                        (spread / light.cosIn),
-                    T(1)};
+  Contribution<T> c{
+      camera.throughput * ec.value * light.throughput * el.value * (spread / light.cosIn), T(1)};
   if (c.zero()) return c;
   const T fromCamera = ec.pdf * spread;
   const T fromLight = el.pdfReverse * cosCamera * inverse2;
@@ -135,8 +135,8 @@ Contribution<T> connectToCamera(const Scene& scene, const PathVertex<T>& light, 
   const T cosine = scene.camera.cosine(fromCamera);
   if (!(value(cosine) > 0)) return Contribution<T>::none();
   const Vec3<T> wi = light.point.shading.toLocal(-fromCamera);
-  const BsdfValue<T> e = evaluateMaterial<T>(scene.bsdfs, materialAt(scene, id), light.point.uv,
-                                             wi, light.wi);
+  const BsdfValue<T> e =
+      evaluateMaterial<T>(scene.bsdfs, materialAt(scene, id), light.point.uv, wi, light.wi);
   const T cosHere = abs(dot(light.point.ng, fromCamera));
   const T cameraPdf = scene.camera.pdf(cosine) * cosHere * inverse2;  // per area
   Contribution<T> c{light.throughput * e.value * (cameraPdf / light.cosIn), T(1)};

@@ -106,7 +106,8 @@ template <int N>
 Dual<N> LogTarget<N>::join(const Scene& scene, const Path& path, const PathRay<Dual<N>>& cameraRay,
                            const PathVertex<Dual<N>>& camera, const PathVertex<Dual<N>>& light) {
   const float* u = path.sample.u.data();
-  const Dual<N> direct[2] = {Dual<N>::variable(u[N - 2], N - 2), Dual<N>::variable(u[N - 1], N - 1)};
+  const Dual<N> direct[2] = {Dual<N>::variable(u[N - 2], N - 2),
+                             Dual<N>::variable(u[N - 1], N - 1)};
   return joinedLogTarget<Dual<N>>(scene, path, cameraRay, camera, light, direct);
 }
 
@@ -125,8 +126,7 @@ Dual<N> evaluateTechnique(const Scene& scene, const Path& path) {
   if constexpr (kCamera > 0) {
     const PathRay<Dual<kCamera>> r = CameraSubpath<kCamera>::ray(scene, path);
     if (path.technique.s == 0) ray = lift<N, 0>(r);
-    if (!path.escaped)
-      camera = lift<N, 0>(arriveAt<Dual<kCamera>>(scene, r, path.camera[C].id));
+    if (!path.escaped) camera = lift<N, 0>(arriveAt<Dual<kCamera>>(scene, r, path.camera[C].id));
   }
   if constexpr (kLight >= 4) {
     if (path.technique.s >= 2) light = lift<N, kCamera>(LightSubpath<kLight>::vertex(scene, path));

@@ -91,8 +91,7 @@ bool cameraVisible(const Scene& scene, const SurfacePoint<float>& point, float& 
                    float& filmY) {
   const Vec3f fromCamera = point.p - scene.camera.position();
   return withinClip(scene.camera, dot(scene.camera.forward(), fromCamera)) &&
-         scene.camera.project(fromCamera, filmX, filmY) &&
-         timedQuery([&] {
+         scene.camera.project(fromCamera, filmX, filmY) && timedQuery([&] {
            return scene.tracer->visible(point.p, point.ng, scene.camera.position(), Vec3f(0));
          });
 }
@@ -148,10 +147,9 @@ Step stepLight(const Scene& scene, Path& path, int i) {
     const float* u = path.sample.u.data() + technique.lightOffset();
     ray = startLight<float>(scene, path.lightIndex, path.lightPrimitive, u[0], u[1], u[2], u[3]);
   } else {
-    ray = scatter(scene, path, path.light[static_cast<std::size_t>(i) - 1],
-                  technique.lightCoordinate(i - 1),
-                  path.sample.choice[static_cast<std::size_t>(technique.lightChoice(i - 1))],
-                  Side::kLight);
+    ray = scatter(
+        scene, path, path.light[static_cast<std::size_t>(i) - 1], technique.lightCoordinate(i - 1),
+        path.sample.choice[static_cast<std::size_t>(technique.lightChoice(i - 1))], Side::kLight);
   }
   if (dark(ray.throughput)) return Step::kDead;
   TracedVertex& v = path.light[static_cast<std::size_t>(i)];
@@ -222,10 +220,11 @@ bool joinSubpaths(const Scene& scene, Path& path) {
   const TracedVertex* camera = &path.camera[static_cast<std::size_t>(t) - 1];
   const TracedVertex* light = s >= 2 ? &path.light[static_cast<std::size_t>(s) - 1] : nullptr;
   const bool direct = s == 1;
-  const Joined joined = join(scene, {path.technique, path.escaped ? nullptr : camera, light,
-                                     &path.lastRay, path.lightIndex, path.lightPrimitive,
-                                     direct ? u[0] : 0, direct ? u[1] : 0});
-  if (s == 0) path.lightIndex = path.escaped ? scene.environment : scene.shapes[camera->id.shape].light;
+  const Joined joined =
+      join(scene, {path.technique, path.escaped ? nullptr : camera, light, &path.lastRay,
+                   path.lightIndex, path.lightPrimitive, direct ? u[0] : 0, direct ? u[1] : 0});
+  if (s == 0)
+    path.lightIndex = path.escaped ? scene.environment : scene.shapes[camera->id.shape].light;
   if (t == 1) {
     path.filmX = joined.filmX;
     path.filmY = joined.filmY;

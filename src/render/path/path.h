@@ -26,11 +26,11 @@ struct Path {
   // Topology and vertices. camera[i], i = 1 .. t - 1, is the i-th vertex after the eye; light[i],
   // i = 1 .. s - 1, the i-th after the one on the light.
   std::vector<TracedVertex> camera, light;
-  int lightIndex = -1;        // the light that the path starts from or hits
+  int lightIndex = -1;         // the light that the path starts from or hits
   PrimitiveId lightPrimitive;  // the choice made within it (s >= 1)
-  bool escaped = false;       // s = 0 and the last edge leaves the scene: camera[t - 1] is not there
-  PathRay<float> lastRay;     // that edge, or the one that has hit a light
-  CoordinateMask wraps = 0;   // coordinates that are angles, or that nothing depends on
+  bool escaped = false;      // s = 0 and the last edge leaves the scene: camera[t - 1] is not there
+  PathRay<float> lastRay;    // that edge, or the one that has hit a light
+  CoordinateMask wraps = 0;  // coordinates that are angles, or that nothing depends on
 
   // Result.
   float filmX = 0, filmY = 0;

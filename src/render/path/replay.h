@@ -15,8 +15,8 @@ T replayLogTarget(const Scene& scene, const Path& path, const T* u);
 template <class T>
 PathRay<T> replayScatter(const Scene& scene, const Path& path, Side side, int index,
                          const PathVertex<T>& vertex, const T& u0, const T& u1) {
-  const TracedVertex& traced = (side == Side::kCamera ? path.camera
-                                                      : path.light)[static_cast<std::size_t>(index)];
+  const TracedVertex& traced =
+      (side == Side::kCamera ? path.camera : path.light)[static_cast<std::size_t>(index)];
   return scatterFrom<T>(scene, vertex, traced.id, traced.lobe, u0, u1, side);
 }
 
@@ -27,12 +27,14 @@ T joinedLogTarget(const Scene& scene, const Path& path, const PathRay<T>& camera
                   const PathVertex<T>& camera, const PathVertex<T>& light, const T* u) {
   const auto [s, t] = path.technique;
   const PrimitiveId cameraId = path.camera[static_cast<std::size_t>(t) - 1].id;
-  const PrimitiveId lightId = s >= 2 ? path.light[static_cast<std::size_t>(s) - 1].id : PrimitiveId{};
+  const PrimitiveId lightId =
+      s >= 2 ? path.light[static_cast<std::size_t>(s) - 1].id : PrimitiveId{};
   constexpr auto kBoth = Techniques::kBidirectional;
   Contribution<T> c;
   if (s == 0) {
-    c = path.escaped ? hitEnvironment<T>(scene, cameraRay, t, kBoth)
-                     : hitAreaLight<T>(scene, camera, cameraRay.direction, path.lightIndex, t, kBoth);
+    c = path.escaped
+            ? hitEnvironment<T>(scene, cameraRay, t, kBoth)
+            : hitAreaLight<T>(scene, camera, cameraRay.direction, path.lightIndex, t, kBoth);
   } else if (s == 1) {
     DirectLight<T> direct;
     c = connectToLight<T>(scene, camera, cameraId, path.lightIndex, path.lightPrimitive, u[0], u[1],

@@ -32,8 +32,8 @@ struct PathRay {
 template <class T>
 struct PathVertex {
   SurfacePoint<T> point;
-  Vec3<T> wi;      // local direction to the previous vertex
-  T cosIn;         // |cos| of the same with the geometric normal
+  Vec3<T> wi;  // local direction to the previous vertex
+  T cosIn;     // |cos| of the same with the geometric normal
   Rgb<T> throughput;
   T vcm, vc;
 };
@@ -106,8 +106,8 @@ PathVertex<T> arriveAt(const Scene& scene, const PathRay<T>& ray, PrimitiveId id
 // Continues from a vertex through `lobe` in the direction that (u0, u1) draw. A throughput of zero
 // means that nothing goes that way.
 template <class T>
-PathRay<T> scatterFrom(const Scene& scene, const PathVertex<T>& vertex, PrimitiveId id,
-                       LobeId lobe, const T& u0, const T& u1, Side side) {
+PathRay<T> scatterFrom(const Scene& scene, const PathVertex<T>& vertex, PrimitiveId id, LobeId lobe,
+                       const T& u0, const T& u1, Side side) {
   const Material& material = materialAt(scene, id);
   const Vec2<T>& uv = vertex.point.uv;
   PathRay<T> ray;

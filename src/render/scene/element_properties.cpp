@@ -21,18 +21,25 @@ bool isColorElement(std::string_view name) {
 // Which elements may give a parameter.
 bool accepts(const Parameter& parameter, std::string_view element) {
   switch (parameter.type) {
-    case ParameterType::kBoolean: return element == "boolean";
-    case ParameterType::kInteger: return isOneOf(element, {"integer", "long"});
-    case ParameterType::kNumber: return isOneOf(element, {"float", "integer"});
+    case ParameterType::kBoolean:
+      return element == "boolean";
+    case ParameterType::kInteger:
+      return isOneOf(element, {"integer", "long"});
+    case ParameterType::kNumber:
+      return isOneOf(element, {"float", "integer"});
     case ParameterType::kString:
       // A word that stands for a number, as in intIOR: the number itself will do.
       return element == "string" || (parameter.choices.empty() && !parameter.fallback.empty() &&
                                      isOneOf(element, {"float", "integer"}));
-    case ParameterType::kColor: return isColorElement(element);
-    case ParameterType::kTexture: return isColorElement(element) || element == "texture";
+    case ParameterType::kColor:
+      return isColorElement(element);
+    case ParameterType::kTexture:
+      return isColorElement(element) || element == "texture";
     case ParameterType::kPoint:
-    case ParameterType::kVector: return isOneOf(element, {"point", "vector"});
-    case ParameterType::kTransform: return isOneOf(element, {"transform", "animation"});
+    case ParameterType::kVector:
+      return isOneOf(element, {"point", "vector"});
+    case ParameterType::kTransform:
+      return isOneOf(element, {"transform", "animation"});
   }
   return false;
 }
@@ -41,17 +48,25 @@ bool accepts(const Parameter& parameter, std::string_view element) {
 std::pair<std::string, std::string> spelling(const Parameter& p) {
   const std::string name = " name=\"" + std::string(p.name) + "\"";
   switch (p.type) {
-    case ParameterType::kBoolean: return {"a boolean", "<boolean" + name + " value=\"true\"/>"};
-    case ParameterType::kInteger: return {"an integer", "<integer" + name + " value=\"...\"/>"};
-    case ParameterType::kNumber: return {"a number", "<float" + name + " value=\"...\"/>"};
-    case ParameterType::kString: return {"a string", "<string" + name + " value=\"...\"/>"};
-    case ParameterType::kColor: return {"a colour", "<rgb" + name + " value=\"r, g, b\"/>"};
+    case ParameterType::kBoolean:
+      return {"a boolean", "<boolean" + name + " value=\"true\"/>"};
+    case ParameterType::kInteger:
+      return {"an integer", "<integer" + name + " value=\"...\"/>"};
+    case ParameterType::kNumber:
+      return {"a number", "<float" + name + " value=\"...\"/>"};
+    case ParameterType::kString:
+      return {"a string", "<string" + name + " value=\"...\"/>"};
+    case ParameterType::kColor:
+      return {"a colour", "<rgb" + name + " value=\"r, g, b\"/>"};
     case ParameterType::kTexture:
       return {"a colour or texture",
               "<rgb" + name + " value=\"r, g, b\"/> or <texture" + name + " type=\"...\">"};
-    case ParameterType::kPoint: return {"a point", "<point" + name + " x=\"\" y=\"\" z=\"\"/>"};
-    case ParameterType::kVector: return {"a vector", "<vector" + name + " x=\"\" y=\"\" z=\"\"/>"};
-    case ParameterType::kTransform: return {"a transform", "<transform" + name + ">"};
+    case ParameterType::kPoint:
+      return {"a point", "<point" + name + " x=\"\" y=\"\" z=\"\"/>"};
+    case ParameterType::kVector:
+      return {"a vector", "<vector" + name + " x=\"\" y=\"\" z=\"\"/>"};
+    case ParameterType::kTransform:
+      return {"a transform", "<transform" + name + ">"};
   }
   return {};
 }
@@ -92,9 +107,9 @@ int checkedInteger(std::string_view text) {
 }  // namespace
 
 bool isParameterElement(const XmlElement& element) {
-  return isOneOf(element.name, {"boolean", "integer", "long", "float", "string", "rgb", "srgb",
-                                "spectrum", "blackbody", "point", "vector", "transform",
-                                "animation"});
+  return isOneOf(element.name,
+                 {"boolean", "integer", "long", "float", "string", "rgb", "srgb", "spectrum",
+                  "blackbody", "point", "vector", "transform", "animation"});
 }
 
 bool isReference(const XmlElement& element) {
@@ -143,7 +158,8 @@ Rgbf readColor(const SceneDocument& document, const XmlElement& element) {
     element.allowAttributes({"name", "value", "intent"});
     const std::string& text = element.require("value");
     if (element.name == "spectrum") return parseSpectrum(text);
-    if (element.name == "rgb" || element.name == "srgb") return parseRgb(text, element.name == "srgb");
+    if (element.name == "rgb" || element.name == "srgb")
+      return parseRgb(text, element.name == "srgb");
     const double grey = parseNumber(text);
     if (grey < 0) throw ValueError("a colour must not be negative");
     return Rgbf(static_cast<float>(grey));
@@ -161,8 +177,8 @@ ElementProperties::ElementProperties(ReaderContext& context, const XmlElement& e
   type_ = lowerCase(element.attribute("type"));
   for (const XmlElement& child : element.children) {
     const std::string written = child.attribute("name");
-    const bool listed = std::find(table_.objects.begin(), table_.objects.end(), child.name) !=
-                        table_.objects.end();
+    const bool listed =
+        std::find(table_.objects.begin(), table_.objects.end(), child.name) != table_.objects.end();
     if (isReference(child)) {
       child.allowAttributes({"name", "id"});
       const XmlElement& target = context.resolve(child);
@@ -172,16 +188,16 @@ ElementProperties::ElementProperties(ReaderContext& context, const XmlElement& e
         nested_.push_back(&child);
       } else if (std::find(table_.objects.begin(), table_.objects.end(), target.name) ==
                  table_.objects.end()) {
-        throw sourceError(child.place("id"), "a reference to a " + target.name + " inside " +
-                                                 description());
+        throw sourceError(child.place("id"),
+                          "a reference to a " + target.name + " inside " + description());
       }
     } else if (isParameterElement(child) || child.name == "texture") {
       readParameter(child);
     } else if (child.name == "bsdf" && table_.nestedBsdfs > 0) {
       nested_.push_back(&child);
     } else if (!listed) {
-      Names names = {"boolean", "float", "integer", "string", "rgb", "spectrum", "point", "vector",
-                     "transform", "texture", "ref"};
+      Names names = {"boolean", "float",  "integer",   "string",  "rgb", "spectrum",
+                     "point",   "vector", "transform", "texture", "ref"};
       if (table_.nestedBsdfs > 0) names.push_back("bsdf");
       names.insert(names.end(), table_.objects.begin(), table_.objects.end());
       throw sourceError(child.place(), "<" + child.name + "> inside " + description(),
@@ -216,8 +232,8 @@ const Parameter* ElementProperties::match(std::string_view written) const {
 
 void ElementProperties::readParameter(const XmlElement& child) {
   if (!child.find("name"))
-    throw sourceError(child.place(), "<" + child.name + "> inside " + description() +
-                                         " has no name",
+    throw sourceError(child.place(),
+                      "<" + child.name + "> inside " + description() + " has no name",
                       "expected name=\"...\"; available: " + joined(parameterNames()));
   const std::string written = child.attribute("name");
   const Parameter* parameter = match(written);
@@ -271,7 +287,9 @@ void ElementProperties::checkValue(const Parameter& parameter, const XmlElement&
         break;
       }
       case ParameterType::kColor:
-      case ParameterType::kTexture: readColor(context_.document, child); break;
+      case ParameterType::kTexture:
+        readColor(context_.document, child);
+        break;
       case ParameterType::kPoint:
       case ParameterType::kVector:
         child.allowAttributes({"name", "x", "y", "z", "value"});

@@ -11,15 +11,17 @@ namespace {
 
 // What Mitsuba calls its integrators; "" where none of ours does the same.
 constexpr std::pair<std::string_view, std::string_view> kMitsuba[] = {
-    {"path", "path"},     {"volpath", "path"}, {"volpath_simple", "path"}, {"direct", ""},
-    {"bdpt", "bdpt"},     {"mlt", ""},         {"pssmlt", ""},             {"erpt", ""},
-    {"ptracer", ""},      {"photonmapper", ""}, {"ppm", ""},               {"sppm", ""},
-    {"vpl", ""},          {"ao", ""},          {"adaptive", ""},           {"irrcache", ""},
-    {"multichannel", ""}, {"field", ""},       {"aov", ""},                {"prb", ""}};
+    {"path", "path"},     {"volpath", "path"},  {"volpath_simple", "path"},
+    {"direct", ""},       {"bdpt", "bdpt"},     {"mlt", ""},
+    {"pssmlt", ""},       {"erpt", ""},         {"ptracer", ""},
+    {"photonmapper", ""}, {"ppm", ""},          {"sppm", ""},
+    {"vpl", ""},          {"ao", ""},           {"adaptive", ""},
+    {"irrcache", ""},     {"multichannel", ""}, {"field", ""},
+    {"aov", ""},          {"prb", ""}};
 
 // Parameters of Mitsuba's integrators that mean what an option of ours means.
-constexpr std::pair<std::string_view, std::string_view> kShared[] = {
-    {"maxDepth", "maxDepth"}, {"rrDepth", "rrDepth"}};
+constexpr std::pair<std::string_view, std::string_view> kShared[] = {{"maxDepth", "maxDepth"},
+                                                                     {"rrDepth", "rrDepth"}};
 
 // Parameters of Mitsuba's path and bdpt that ours have no option for.
 constexpr std::string_view kIgnored[] = {"strictNormals", "hideEmitters", "lightImage",
@@ -61,10 +63,14 @@ bool matches(std::string_view written, std::string_view name) {
 // The kind of element that gives an option, to tell a wrong type.
 bool fits(ParameterType type, const std::string& element) {
   switch (type) {
-    case ParameterType::kBoolean: return element == "boolean";
-    case ParameterType::kInteger: return element == "integer";
-    case ParameterType::kNumber: return element == "float" || element == "integer";
-    default: return element == "string";
+    case ParameterType::kBoolean:
+      return element == "boolean";
+    case ParameterType::kInteger:
+      return element == "integer";
+    case ParameterType::kNumber:
+      return element == "float" || element == "integer";
+    default:
+      return element == "string";
   }
 }
 
@@ -74,13 +80,14 @@ void readOwnParameter(ReaderContext& context, const IntegratorPlugin& plugin,
   for (const Parameter& p : plugin.parameters) {
     if (!matches(written, p.name)) continue;
     if (!fits(p.type, child.name))
-      throw sourceError(child.place(), "parameter \"" + written + "\" of integrator \"" +
-                                           std::string(plugin.name) + "\" is not a <" + child.name +
-                                           ">",
-                        "expected " + std::string(p.type == ParameterType::kBoolean   ? "<boolean"
-                                                  : p.type == ParameterType::kInteger ? "<integer"
-                                                  : p.type == ParameterType::kNumber  ? "<float"
-                                                                                      : "<string") +
+      throw sourceError(child.place(),
+                        "parameter \"" + written + "\" of integrator \"" +
+                            std::string(plugin.name) + "\" is not a <" + child.name + ">",
+                        "expected " +
+                            std::string(p.type == ParameterType::kBoolean   ? "<boolean"
+                                        : p.type == ParameterType::kInteger ? "<integer"
+                                        : p.type == ParameterType::kNumber  ? "<float"
+                                                                            : "<string") +
                             " name=\"" + std::string(p.name) + "\" value=\"...\"/>");
     checkValue(child);
     setOption(context, p.name, child.attribute("value"), child.place("value"));
@@ -97,10 +104,10 @@ void readOwnParameter(ReaderContext& context, const IntegratorPlugin& plugin,
   }
   Names names;
   for (const Parameter& p : plugin.parameters) names.emplace_back(p.name);
-  throw sourceError(child.place("name"),
-                    "unknown parameter \"" + written + "\" of integrator \"" +
-                        std::string(plugin.name) + "\"",
-                    "expected a parameter that it has; " + suggestion(written, names));
+  throw sourceError(
+      child.place("name"),
+      "unknown parameter \"" + written + "\" of integrator \"" + std::string(plugin.name) + "\"",
+      "expected a parameter that it has; " + suggestion(written, names));
 }
 
 void checkChildren(const XmlElement& element) {
@@ -129,7 +136,8 @@ void readIntegrator(ReaderContext& context, const XmlElement& element,
                                     [&](const auto& entry) { return entry.first == type; });
   const bool isMitsubas = mitsuba != std::end(kMitsuba);
   const IntegratorPlugin* plugin = find(integrators, type);
-  if (!plugin && isMitsubas && !mitsuba->second.empty()) plugin = find(integrators, mitsuba->second);
+  if (!plugin && isMitsubas && !mitsuba->second.empty())
+    plugin = find(integrators, mitsuba->second);
   if (plugin) {
     checkChildren(element);
     context.scene.integrator = OptionSet(*plugin);
@@ -165,23 +173,30 @@ void readDptBlock(ReaderContext& context, const XmlElement& element,
   struct Entry {
     std::string_view name, option, type;  // option "": has a meaning of its own, or none
   };
-  static constexpr Entry kEntries[] = {
-      {"integrator", "", "string"},         {"bidirectional", "", "boolean"},
-      {"h2mc", "", "boolean"},              {"spp", "", "integer"},
-      {"seedoffset", "", "integer"},        {"numinitsamples", "bootstrapSamples", "integer"},
-      {"largestepprob", "largeStepProbability", "float"},
-      {"maxdepth", "maxDepth", "integer"},  {"mindepth", "minDepth", "integer"},
-      {"directspp", "directSamples", "integer"},
-      {"perturbstddev", "sigma", "float"},  {"lensperturbstddev", "lensSigma", "float"},
-      {"lensperturbprob", "lensProbability", "float"},
-      {"numchains", "chains", "integer"},
-      {"uniformmixprob", "isotropicProbability", "float"},
-      {"roughnessthreshold", "", "float"},  {"reportintervalspp", "", "integer"},
-      {"uselightcoordinatesampling", "", "boolean"},
-      {"largestepmultiplexed", "", "boolean"},
-      {"largestepscale", "", "float"},      {"lensperturbscale", "", "float"},
-      {"discretestddev", "", "float"},      {"mala", "", "boolean"},
-      {"samplecache", "", "boolean"}};
+  static constexpr Entry kEntries[] = {{"integrator", "", "string"},
+                                       {"bidirectional", "", "boolean"},
+                                       {"h2mc", "", "boolean"},
+                                       {"spp", "", "integer"},
+                                       {"seedoffset", "", "integer"},
+                                       {"numinitsamples", "bootstrapSamples", "integer"},
+                                       {"largestepprob", "largeStepProbability", "float"},
+                                       {"maxdepth", "maxDepth", "integer"},
+                                       {"mindepth", "minDepth", "integer"},
+                                       {"directspp", "directSamples", "integer"},
+                                       {"perturbstddev", "sigma", "float"},
+                                       {"lensperturbstddev", "lensSigma", "float"},
+                                       {"lensperturbprob", "lensProbability", "float"},
+                                       {"numchains", "chains", "integer"},
+                                       {"uniformmixprob", "isotropicProbability", "float"},
+                                       {"roughnessthreshold", "", "float"},
+                                       {"reportintervalspp", "", "integer"},
+                                       {"uselightcoordinatesampling", "", "boolean"},
+                                       {"largestepmultiplexed", "", "boolean"},
+                                       {"largestepscale", "", "float"},
+                                       {"lensperturbscale", "", "float"},
+                                       {"discretestddev", "", "float"},
+                                       {"mala", "", "boolean"},
+                                       {"samplecache", "", "boolean"}};
 
   element.allowAttributes({"id"});
   checkChildren(element);
@@ -202,16 +217,16 @@ void readDptBlock(ReaderContext& context, const XmlElement& element,
       continue;
     }
     if (child.name != entry->type && !(entry->type == "float" && child.name == "integer"))
-      throw sourceError(child.place(),
-                        "parameter \"" + name + "\" of <dpt> is not a <" + child.name + ">",
-                        "expected <" + std::string(entry->type) + " name=\"" + name +
-                            "\" value=\"...\"/>");
+      throw sourceError(
+          child.place(), "parameter \"" + name + "\" of <dpt> is not a <" + child.name + ">",
+          "expected <" + std::string(entry->type) + " name=\"" + name + "\" value=\"...\"/>");
     checkValue(child);
     given[name] = &child;
   }
   const auto text = [&](const std::string& name, const std::string& fallback) {
     const auto found = given.find(name);
-    return found == given.end() ? fallback : std::string(trimmed(found->second->attribute("value")));
+    return found == given.end() ? fallback
+                                : std::string(trimmed(found->second->attribute("value")));
   };
 
   const std::string method = text("integrator", "mcmc");

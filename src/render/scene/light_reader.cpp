@@ -6,7 +6,8 @@ namespace h2mc {
 int addLight(ReaderContext& context, const XmlElement& element, int shape) {
   Scene& scene = context.scene;
   const auto& plugin = findPlugin(lightPlugins(), element, "emitter");
-  const ElementProperties properties(context, element, {"emitter", plugin.parameters, 0, {}, false});
+  const ElementProperties properties(context, element,
+                                     {"emitter", plugin.parameters, 0, {}, false});
   Light light = createLocated(properties, plugin.create);
 
   auto* area = std::get_if<AreaLight>(&light);
@@ -38,6 +39,8 @@ int addLight(ReaderContext& context, const XmlElement& element, int shape) {
   return index;
 }
 
-void readLight(ReaderContext& context, const XmlElement& element) { addLight(context, element, -1); }
+void readLight(ReaderContext& context, const XmlElement& element) {
+  addLight(context, element, -1);
+}
 
 }  // namespace h2mc

@@ -12,15 +12,19 @@ namespace {
 std::string normalised(const Parameter& parameter, const std::string& text) {
   const std::string word(trimmed(text));
   switch (parameter.type) {
-    case ParameterType::kBoolean: return parseBoolean(lowerCase(word)) ? "true" : "false";
+    case ParameterType::kBoolean:
+      return parseBoolean(lowerCase(word)) ? "true" : "false";
     case ParameterType::kInteger: {
       const long long value = parseInteger(word);
       if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max())
         throw ValueError("\"" + word + "\" is too large an integer");
       return std::to_string(value);
     }
-    case ParameterType::kNumber: parseNumber(word); return word;
-    default: break;
+    case ParameterType::kNumber:
+      parseNumber(word);
+      return word;
+    default:
+      break;
   }
   if (parameter.choices.empty()) return word;
   Names choices;

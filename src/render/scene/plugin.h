@@ -12,21 +12,21 @@ class Properties;
 enum class ParameterType {
   kBoolean,
   kInteger,
-  kNumber,     // float
-  kString,     // one of `choices` where those are given; without choices but with a default, a number
-               // may stand for it (intIOR: "bk7" or 1.5)
-  kColor,      // rgb, spectrum or a single number
-  kTexture,    // a nested texture or a colour
+  kNumber,   // float
+  kString,   // one of `choices` where those are given; without choices but with a default, a number
+             // may stand for it (intIOR: "bk7" or 1.5)
+  kColor,    // rgb, spectrum or a single number
+  kTexture,  // a nested texture or a colour
   kPoint,
   kVector,
   kTransform,
 };
 
 struct Parameter {
-  std::string_view name;       // as in Mitsuba 0.6, e.g. "specularReflectance"; the snake_case
-                               // spelling of Mitsuba 2/3 is derived ("specular_reflectance")
+  std::string_view name;  // as in Mitsuba 0.6, e.g. "specularReflectance"; the snake_case
+                          // spelling of Mitsuba 2/3 is derived ("specular_reflectance")
   ParameterType type;
-  std::string_view fallback;   // the default as one would write it in a scene; "" = none
+  std::string_view fallback;  // the default as one would write it in a scene; "" = none
   std::string_view description;
   std::string_view choices = "";    // for strings: "ggx|beckmann"; "" = anything
   std::string_view otherName = "";  // a further spelling that is not the snake_case one ("int_ior")
@@ -34,8 +34,15 @@ struct Parameter {
 };
 
 // What a plugin element may hold besides parameters.
-enum class Nested : unsigned { kNone = 0, kBsdf = 1, kEmitter = 2, kShape = 4, kFilm = 8, kFilter = 16,
-                               kSampler = 32 };
+enum class Nested : unsigned {
+  kNone = 0,
+  kBsdf = 1,
+  kEmitter = 2,
+  kShape = 4,
+  kFilm = 8,
+  kFilter = 16,
+  kSampler = 32
+};
 
 // One entry of the list of BSDFs, lights, shapes, textures or integrators.
 template <class Object>

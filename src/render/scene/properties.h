@@ -32,12 +32,12 @@ class Properties {
   virtual bool given(std::string_view name) const = 0;  // written in the scene file
   virtual bool boolean(std::string_view name) const = 0;
   virtual int integer(std::string_view name) const = 0;
-  virtual float number(std::string_view name) const = 0;       // finite
+  virtual float number(std::string_view name) const = 0;        // finite
   virtual std::string string(std::string_view name) const = 0;  // lower-case if it has choices
   virtual Rgbf color(std::string_view name) const = 0;          // finite, not negative
   virtual TexturePtr texture(std::string_view name) const = 0;
-  virtual Vec3f vector(std::string_view name) const = 0;        // points too
-  virtual Mat4 transform(std::string_view name) const = 0;      // identity by default
+  virtual Vec3f vector(std::string_view name) const = 0;    // points too
+  virtual Mat4 transform(std::string_view name) const = 0;  // identity by default
   // The path of a file named by a string parameter, found relative to the scene file; fails when
   // it is not there.
   virtual std::string file(std::string_view name) const = 0;

@@ -11,7 +11,8 @@ class Open {
  public:
   Open(std::set<const XmlElement*>& open, const XmlElement& element) : open_(open), key_(&element) {
     if (!open_.insert(key_).second)
-      throw sourceError(element.place("id"), "<" + element.name + "> contains itself by a reference");
+      throw sourceError(element.place("id"),
+                        "<" + element.name + "> contains itself by a reference");
   }
   ~Open() { open_.erase(key_); }
   Open(const Open&) = delete;
@@ -59,8 +60,7 @@ int ReaderContext::material(const XmlElement& written) {
   const XmlElement& element = resolve(written);
   if (element.name != "bsdf")
     throw sourceError(written.place("id"), "<" + element.name + "> is not a bsdf");
-  if (const auto found = materials_.find(&element); found != materials_.end())
-    return found->second;
+  if (const auto found = materials_.find(&element); found != materials_.end()) return found->second;
   const Open open(open_, element);
   used_.insert(&element);
   const int index = makeMaterial(element);
@@ -72,8 +72,8 @@ int ReaderContext::makeMaterial(const XmlElement& element) {
   const BsdfPlugin& plugin = findPlugin(bsdfPlugins(), element, "bsdf");
   Material material;
   if (plugin.create) {
-    const ElementProperties properties(
-        *this, element, {"bsdf", plugin.parameters, plugin.nestedBsdfs, {}, false});
+    const ElementProperties properties(*this, element,
+                                       {"bsdf", plugin.parameters, plugin.nestedBsdfs, {}, false});
     Bsdf bsdf = createLocated(properties, plugin.create);
     material.front = static_cast<int>(scene.bsdfs.size());
     scene.bsdfs.push_back(std::move(bsdf));
@@ -135,7 +135,8 @@ int ReaderContext::defaultMaterial(float reflectance) {
   file->name = "(default)";
   XmlElement parameter;
   parameter.name = "float";
-  parameter.attributes = {{"name", "reflectance", 0, 0}, {"value", std::to_string(reflectance), 0, 0}};
+  parameter.attributes = {{"name", "reflectance", 0, 0},
+                          {"value", std::to_string(reflectance), 0, 0}};
   parameter.file = file;
   XmlElement element;
   element.name = "bsdf";

@@ -55,8 +55,8 @@ void Scene::finish() {
   prepareLights(lights, shapes);
   std::vector<double> powers;
   for (const Light& light : lights)
-    powers.push_back(static_cast<double>(
-        std::visit([&](const auto& l) { return l.power(bounds); }, light)));
+    powers.push_back(
+        static_cast<double>(std::visit([&](const auto& l) { return l.power(bounds); }, light)));
   lightPicker = LightPicker(powers);
   tracer = std::make_unique<RayTracer>(shapes);
 }

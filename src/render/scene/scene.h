@@ -41,7 +41,7 @@ struct Scene {
   std::map<std::string, std::string, std::less<>> options;
   int samplesPerPixel = 0;            // the sampler's sampleCount; 0 when it does not say
   std::optional<std::uint64_t> seed;  // where the scene gives one
-  std::vector<std::string> notes;  // accepted and not used, left out because nothing needs it
+  std::vector<std::string> notes;     // accepted and not used, left out because nothing needs it
 
   // Made by finish():
   SceneBounds bounds;

@@ -33,8 +33,7 @@ class Loader {
     try {
       file->text = readTextFile(path);
     } catch (const std::exception& e) {
-      if (from.file)
-        throw sourceError(from, "cannot read \"" + path + "\": " + e.what());
+      if (from.file) throw sourceError(from, "cannot read \"" + path + "\": " + e.what());
       throw SceneError(path + ": error: cannot read the scene: " + e.what());
     }
     XmlElement root = parseXml(file);

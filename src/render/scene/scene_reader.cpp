@@ -38,8 +38,8 @@ void checkUnused(ReaderContext& context, const XmlElement& element) {
     throw sourceError(element.place(), "participating media are not supported");
   if (isOneOf(element.name, {"film", "rfilter", "sampler"}))
     throw sourceError(element.place(), "<" + element.name + "> outside a <sensor>");
-  const Names names = {"bsdf",    "default", "dpt",    "emitter", "include", "integrator",
-                       "sensor",  "shape",   "texture"};
+  const Names names = {"bsdf",       "default", "dpt",   "emitter", "include",
+                       "integrator", "sensor",  "shape", "texture"};
   throw sourceError(element.place(), "<" + element.name + "> inside <scene>",
                     "expected an element that belongs here; " + suggestion(element.name, names));
 }

@@ -33,32 +33,32 @@ constexpr Parameter kPerspective[] = {
     ignoredParameter("focusDistance", kNumber)};
 constexpr Entry kSensors[] = {{"perspective", kPerspective}};
 
-constexpr Parameter kFilm[] = {
-    {"width", kInteger, "768", "pixels"},
-    {"height", kInteger, "576", "pixels"},
-    {"cropOffsetX", kInteger, "0", "must be 0"},
-    {"cropOffsetY", kInteger, "0", "must be 0"},
-    {"cropWidth", kInteger, "0", "must be the width"},
-    {"cropHeight", kInteger, "0", "must be the height"},
-    ignoredParameter("banner", kBoolean),
-    ignoredParameter("fileFormat", kString),
-    ignoredParameter("pixelFormat", kString),
-    ignoredParameter("componentFormat", kString),
-    ignoredParameter("attachLog", kBoolean),
-    ignoredParameter("highQualityEdges", kBoolean),
-    ignoredParameter("filename", kString),
-    ignoredParameter("gamma", kNumber),
-    ignoredParameter("exposure", kNumber),
-    ignoredParameter("key", kNumber),
-    ignoredParameter("burn", kNumber),
-    ignoredParameter("tonemapMethod", kString),
-    ignoredParameter("sampleBorder", kBoolean)};
+constexpr Parameter kFilm[] = {{"width", kInteger, "768", "pixels"},
+                               {"height", kInteger, "576", "pixels"},
+                               {"cropOffsetX", kInteger, "0", "must be 0"},
+                               {"cropOffsetY", kInteger, "0", "must be 0"},
+                               {"cropWidth", kInteger, "0", "must be the width"},
+                               {"cropHeight", kInteger, "0", "must be the height"},
+                               ignoredParameter("banner", kBoolean),
+                               ignoredParameter("fileFormat", kString),
+                               ignoredParameter("pixelFormat", kString),
+                               ignoredParameter("componentFormat", kString),
+                               ignoredParameter("attachLog", kBoolean),
+                               ignoredParameter("highQualityEdges", kBoolean),
+                               ignoredParameter("filename", kString),
+                               ignoredParameter("gamma", kNumber),
+                               ignoredParameter("exposure", kNumber),
+                               ignoredParameter("key", kNumber),
+                               ignoredParameter("burn", kNumber),
+                               ignoredParameter("tonemapMethod", kString),
+                               ignoredParameter("sampleBorder", kBoolean)};
 constexpr Entry kFilms[] = {{"hdrfilm", kFilm}, {"ldrfilm", kFilm}};
 
 constexpr Parameter kBox[] = {{"radius", kNumber, "0.5", "pixels"}};
 constexpr Parameter kTent[] = {{"radius", kNumber, "1", "pixels"}};
 constexpr Parameter kGaussian[] = {{"stddev", kNumber, "0.5", "pixels"}};
-constexpr Parameter kMitchell[] = {{"B", kNumber, "0.33333333", ""}, {"C", kNumber, "0.33333333", ""}};
+constexpr Parameter kMitchell[] = {{"B", kNumber, "0.33333333", ""},
+                                   {"C", kNumber, "0.33333333", ""}};
 constexpr Entry kFilters[] = {
     {"box", kBox}, {"tent", kTent}, {"gaussian", kGaussian}, {"mitchell", kMitchell}};
 
@@ -236,8 +236,7 @@ void readSensor(ReaderContext& context, const XmlElement& element, const ReadOpt
   }
   for (std::string_view name : {"principalPointOffsetX", "principalPointOffsetY"})
     if (p.number(name) != 0) p.fail(name, "a shifted principal point is not supported");
-  const float aspect =
-      static_cast<float>(scene.film.width) / static_cast<float>(scene.film.height);
+  const float aspect = static_cast<float>(scene.film.width) / static_cast<float>(scene.film.height);
   scene.camera = Camera(p.transform("toWorld"), fov, axis, aspect);
   scene.camera.nearClip = positive(p, "nearClip");
   scene.camera.farClip = positive(p, "farClip");

@@ -21,16 +21,24 @@ constexpr Parameter ignoredParameter(std::string_view name, ParameterType type) 
 constexpr Parameter kMaxSmoothAngle = ignoredParameter("maxSmoothAngle", kNumber);
 
 constexpr Parameter kSerialized[] = {
-    kFilename,
-    {"shapeIndex", kInteger, "0", "which mesh of the file"},
-    kToWorld, kFaceNormals, kFlipNormals, kMaxSmoothAngle};
-constexpr Parameter kObj[] = {
-    kFilename, kToWorld, kFaceNormals, kFlipNormals, kFlipTexCoords, kMaxSmoothAngle,
-    ignoredParameter("collapse", kBoolean), ignoredParameter("loadMaterials", kBoolean)};
-constexpr Parameter kPly[] = {
-    kFilename, kToWorld, kFaceNormals, kFlipNormals,
-    {"flipTexCoords", kBoolean, "false", "v grows upwards"},
-    kMaxSmoothAngle, ignoredParameter("srgb", kBoolean)};
+    kFilename,    {"shapeIndex", kInteger, "0", "which mesh of the file"},
+    kToWorld,     kFaceNormals,
+    kFlipNormals, kMaxSmoothAngle};
+constexpr Parameter kObj[] = {kFilename,
+                              kToWorld,
+                              kFaceNormals,
+                              kFlipNormals,
+                              kFlipTexCoords,
+                              kMaxSmoothAngle,
+                              ignoredParameter("collapse", kBoolean),
+                              ignoredParameter("loadMaterials", kBoolean)};
+constexpr Parameter kPly[] = {kFilename,
+                              kToWorld,
+                              kFaceNormals,
+                              kFlipNormals,
+                              {"flipTexCoords", kBoolean, "false", "v grows upwards"},
+                              kMaxSmoothAngle,
+                              ignoredParameter("srgb", kBoolean)};
 constexpr Parameter kFlat[] = {kToWorld, kFlipNormals};
 constexpr Parameter kSphereParameters[] = {
     {"center", kPoint, "0, 0, 0", "the middle, in object space"},
@@ -70,12 +78,14 @@ ShapeGeometry createSerialized(const Properties& p) {
 
 ShapeGeometry createObj(const Properties& p) {
   const bool flip = p.boolean("flipTexCoords");
-  return finished(p, loaded(p, [&](const std::string& path) { return loadObj(path, flip); }), false);
+  return finished(p, loaded(p, [&](const std::string& path) { return loadObj(path, flip); }),
+                  false);
 }
 
 ShapeGeometry createPly(const Properties& p) {
   const bool flip = p.boolean("flipTexCoords");
-  return finished(p, loaded(p, [&](const std::string& path) { return loadPly(path, flip); }), false);
+  return finished(p, loaded(p, [&](const std::string& path) { return loadPly(path, flip); }),
+                  false);
 }
 
 ShapeGeometry createRectangle(const Properties& p) {
@@ -107,8 +117,7 @@ ShapeGeometry createSphere(const Properties& p) {
   if (!(radius > 0) || !std::isfinite(static_cast<float>(radius)))
     p.fail("radius", "the radius of a sphere must be positive");
   Sphere sphere;
-  sphere.center = Vec3f(
-      glm::dvec3(toWorld * glm::dvec4(glm::dvec3(p.vector("center")), 1)));
+  sphere.center = Vec3f(glm::dvec3(toWorld * glm::dvec4(glm::dvec3(p.vector("center")), 1)));
   sphere.radius = static_cast<float>(radius);
   sphere.flipNormals = p.boolean("flipNormals");
   sphere.toLocal = glm::mat3(glm::transpose(linear / scale));

@@ -21,14 +21,16 @@ bool isEmitter(const XmlElement& element) {
 void readShape(ReaderContext& context, const XmlElement& element) {
   Scene& scene = context.scene;
   const std::string type = lowerCase(element.require("type"));
-  if (type == "shapegroup" || type == "instance") unsupported(element, "shape groups and instances");
+  if (type == "shapegroup" || type == "instance")
+    unsupported(element, "shape groups and instances");
   if (type == "hair") unsupported(element, "hair fibres");
   const auto& plugin = findPlugin(shapePlugins(), element, "shape");
 
   const XmlElement* emitter = nullptr;
   for (const XmlElement& child : element.children) {
     if (child.name == "medium" || child.name == "subsurface")
-      throw sourceError(child.place(), "participating media and subsurface scattering are not supported");
+      throw sourceError(child.place(),
+                        "participating media and subsurface scattering are not supported");
     if (child.name == "sensor")
       throw sourceError(child.place(), "sensors on shapes are not supported");
     const XmlElement& target = context.resolve(child);
@@ -53,7 +55,8 @@ void readShape(ReaderContext& context, const XmlElement& element) {
     context.note("left out: " + std::to_string(made.dropped) +
                  (made.dropped == 1 ? " triangle" : " triangles") + " without area of shape \"" +
                  shape.name + "\"");
-  if (const auto* mesh = std::get_if<TriangleMesh>(&made.geometry); mesh && mesh->triangles.empty()) {
+  if (const auto* mesh = std::get_if<TriangleMesh>(&made.geometry);
+      mesh && mesh->triangles.empty()) {
     context.note("left out: shape \"" + shape.name + "\" has no area");
     return;
   }

@@ -21,8 +21,8 @@ Position locate(const std::string& text, std::size_t offset) {
   const std::size_t before = offset == 0 ? std::string::npos : text.rfind('\n', offset - 1);
   p.lineStart = before == std::string::npos ? 0 : before + 1;
   p.lineEnd = std::min(text.find('\n', offset), text.size());
-  p.column = 1 + static_cast<std::size_t>(std::count_if(
-                     text.begin() + p.lineStart, text.begin() + offset, startsCharacter));
+  p.column = 1 + static_cast<std::size_t>(std::count_if(text.begin() + p.lineStart,
+                                                        text.begin() + offset, startsCharacter));
   return p;
 }
 

@@ -35,12 +35,12 @@ glm::dmat4 readLookAt(const XmlElement& element) {
     throw sourceError(element.place("target"), "origin and target are the same point");
   direction = glm::normalize(direction);
   glm::dvec3 up(0);
-  if (element.find("up") && !trimmed(element.attribute("up")).empty()) up = readTriple(element, "up");
+  if (element.find("up") && !trimmed(element.attribute("up")).empty())
+    up = readTriple(element, "up");
   if (glm::length(up) == 0) {
     // Not given: any direction that is not parallel.
-    up = std::fabs(direction.x) > std::fabs(direction.y)
-             ? glm::dvec3(-direction.z, 0, direction.x)
-             : glm::dvec3(0, direction.z, -direction.y);
+    up = std::fabs(direction.x) > std::fabs(direction.y) ? glm::dvec3(-direction.z, 0, direction.x)
+                                                         : glm::dvec3(0, direction.z, -direction.y);
   }
   const glm::dvec3 left = glm::cross(glm::normalize(up), direction);
   if (glm::length(left) < 1e-9)
@@ -55,8 +55,8 @@ glm::dmat4 readMatrix(const XmlElement& element) {
   element.allowAttributes({"value"});
   const std::vector<double> v = readNumbers(element, "value");
   if (v.size() != 16 && v.size() != 9)
-    throw sourceError(element.place("value"), "a matrix has 16 numbers (or 9), here are " +
-                                                  std::to_string(v.size()));
+    throw sourceError(element.place("value"),
+                      "a matrix has 16 numbers (or 9), here are " + std::to_string(v.size()));
   const int n = v.size() == 16 ? 4 : 3;
   glm::dmat4 m(1);
   for (int row = 0; row < n; ++row)
@@ -112,8 +112,7 @@ glm::dmat4 readOperations(const XmlElement& transform) {
   glm::dmat4 result(1);
   for (const XmlElement& child : transform.children) result = readOperation(child) * result;
   const glm::dmat3 linear(result);
-  const double volume =
-      glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
+  const double volume = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
   const double determinant = glm::determinant(linear);
   if (!std::isfinite(volume) || !std::isfinite(determinant) ||
       !std::isfinite(glm::length(result[3])))

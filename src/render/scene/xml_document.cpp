@@ -39,8 +39,8 @@ XmlElement convert(const pugi::xml_node& node, const std::shared_ptr<const Sourc
   element.file = file;
   element.offset = static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0));
   if (depth > kDeepest)
-    throw sourceError(element.place(), "elements are nested more than " +
-                                           std::to_string(kDeepest) + " deep");
+    throw sourceError(element.place(),
+                      "elements are nested more than " + std::to_string(kDeepest) + " deep");
   for (const pugi::xml_attribute& a : node.attributes())
     element.attributes.push_back({a.name(), a.value(), 0, 0});
   locateAttributes(element);
@@ -53,10 +53,10 @@ XmlElement convert(const pugi::xml_node& node, const std::shared_ptr<const Sourc
     if (child.type() == pugi::node_element) {
       element.children.push_back(convert(child, file, depth + 1));
     } else if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) {
-      throw sourceError({file, static_cast<std::size_t>(
-                                   std::max<std::ptrdiff_t>(child.offset_debug(), 0))},
-                        "text inside <" + element.name + ">",
-                        "expected only elements; values are written as value=\"...\"");
+      throw sourceError(
+          {file, static_cast<std::size_t>(std::max<std::ptrdiff_t>(child.offset_debug(), 0))},
+          "text inside <" + element.name + ">",
+          "expected only elements; values are written as value=\"...\"");
     }
   }
   return element;
@@ -83,7 +83,8 @@ SourcePlace XmlElement::place(std::string_view wanted) const {
 void XmlElement::allowAttributes(std::initializer_list<std::string_view> names) const {
   for (const XmlAttribute& a : attributes) {
     if (std::find(names.begin(), names.end(), a.name) != names.end()) continue;
-    throw sourceError({file, a.nameOffset}, "unknown attribute \"" + a.name + "\" of <" + name + ">",
+    throw sourceError({file, a.nameOffset},
+                      "unknown attribute \"" + a.name + "\" of <" + name + ">",
                       suggestion(a.name, Names(names.begin(), names.end())));
   }
 }
@@ -99,8 +100,8 @@ XmlElement parseXml(std::shared_ptr<const SourceFile> file) {
   if (const std::size_t zero = text.find('\0'); zero != std::string::npos)
     throw sourceError({file, zero}, "not a text file", "expected XML in UTF-8");
   pugi::xml_document document;
-  const pugi::xml_parse_result result = document.load_buffer(
-      text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
+  const pugi::xml_parse_result result =
+      document.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
   if (result.status == pugi::status_no_document_element)
     throw sourceError({file, 0}, text.empty() ? "the file is empty" : "no XML element in the file",
                       "expected <scene version=\"0.6.0\"> ... </scene>");
@@ -108,7 +109,8 @@ XmlElement parseXml(std::shared_ptr<const SourceFile> file) {
     // The offset may be one past the place where the parser gave up.
     const std::size_t offset = static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0));
     std::string what = result.description();
-    if (!what.empty() && what[0] >= 'A' && what[0] <= 'Z') what[0] = static_cast<char>(what[0] + 32);
+    if (!what.empty() && what[0] >= 'A' && what[0] <= 'Z')
+      what[0] = static_cast<char>(what[0] + 32);
     throw sourceError({file, std::min(offset, text.size())}, "malformed XML: " + what);
   }
   const pugi::xml_node root = document.document_element();
