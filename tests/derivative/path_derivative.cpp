@@ -22,6 +22,7 @@ struct Case {
   std::string file;
   int maxLength;
 };
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 std::vector<Case> cases() {
   const std::string data = H2MC_DATA_DIR, own = H2MC_SOURCE_DIR;
@@ -77,23 +78,26 @@ class PathDerivative : public testing::TestWithParam<Case> {
 };
 
 TEST_P(PathDerivative, FrozenTopologyGivesTheTracedValue) {
-  int checked = 0;
+  int checked = 0, apart = 0;
   forPaths(40, 4000, [&](const Path& path) {
     const double traced = std::log(double(path.target));
     EXPECT_NEAR(replayLogTarget<float>(*scene_, path, path.sample.u.data()), traced, 1e-4);
-    // Double starts from the same coordinates; sharp lobes and long paths magnify float's rounding.
+    // Double starts from the same coordinates; sharp lobes, their far tails above all, and long
+    // paths magnify float's rounding.
     double u[2 * kMaxPathLength];
     std::copy_n(path.sample.u.begin(), path.technique.dimension(), u);
     const double exact = replayLogTarget<double>(*scene_, path, u);
-    EXPECT_NEAR(exact, traced, 0.05) << "s=" << path.technique.s << " t=" << path.technique.t;
+    apart += !(std::abs(exact - traced) <= 0.02);
     ++checked;
   });
   EXPECT_GT(checked, 100);
   EXPECT_GT(techniques_, 5u);
+  EXPECT_LE(apart, checked / 50) << "paths whose value in float and in double differ by 2 %";
 }
 
 TEST_P(PathDerivative, SlowAgreesWithFiniteDifferences) {
   int judged = 0, unjudged = 0, wrong = 0, notFinite = 0;
+  int wrongBefore = 0;
   forPaths(6, 2000, [&](const Path& path) {
     const int n = path.technique.dimension();
     Derivative d;
@@ -104,9 +108,11 @@ TEST_P(PathDerivative, SlowAgreesWithFiniteDifferences) {
     }
     double u[kMaxDerivativeDimension];
     std::copy_n(path.sample.u.begin(), n, u);
-    // Steps well inside the smoothest neighbourhood that sharp lobes leave.
-    const auto fd = ad::finiteDifferences(
-        [&](const double* x) { return replayLogTarget<double>(*scene_, path, x); }, u, n, 2e-3);
+    // Two sweeps of steps, a hundred times apart. Where a texel's or a triangle's border lies within
+    // the larger one they disagree, and nothing can be judged.
+    const auto f = [&](const double* x) { return replayLogTarget<double>(*scene_, path, x); };
+    const auto fd = ad::finiteDifferences(f, u, n, 1e-5);
+    const auto wide = ad::finiteDifferences(f, u, n, 1e-3);
     double gradientScale = 1, hessianScale = 1;
     for (int i = 0; i < n; ++i)
       gradientScale = std::max(gradientScale, double(std::abs(d.gradient[i])));
@@ -114,9 +120,8 @@ TEST_P(PathDerivative, SlowAgreesWithFiniteDifferences) {
       hessianScale = std::max(hessianScale, double(std::abs(d.hessian[i])));
     for (int i = 0, k = 0; i < n; ++i) {
       const auto& g = fd.gradient[static_cast<std::size_t>(i)];
-      // Differences that do not know themselves to a hundredth cannot judge: a texel's or a
-      // triangle's border is nearby.
-      if (g.error <= 1e-3 * gradientScale) {
+      const auto& g2 = wide.gradient[static_cast<std::size_t>(i)];
+      if (std::max(g.error, std::abs(g.value - g2.value)) <= 1e-3 * gradientScale) {
         ++judged;
         wrong += !(std::abs(d.gradient[i] - g.value) <= 1e-2 * gradientScale + 10 * g.error);
       } else {
@@ -124,7 +129,8 @@ TEST_P(PathDerivative, SlowAgreesWithFiniteDifferences) {
       }
       for (int j = 0; j <= i; ++j, ++k) {
         const auto& h = fd.hessian[static_cast<std::size_t>(i * n + j)];
-        if (h.error <= 1e-3 * hessianScale) {
+        const auto& h2 = wide.hessian[static_cast<std::size_t>(i * n + j)];
+        if (std::max(h.error, std::abs(h.value - h2.value)) <= 1e-2 * hessianScale) {
           ++judged;
           wrong += !(std::abs(d.hessian[k] - h.value) <= 2e-2 * hessianScale + 10 * h.error);
         } else {
@@ -132,6 +138,11 @@ TEST_P(PathDerivative, SlowAgreesWithFiniteDifferences) {
         }
       }
     }
+    if (wrong > wrongBefore)
+      std::printf("wrong: s=%d t=%d, log target %g, %d entries, largest %g\n", path.technique.s,
+                  path.technique.t, std::log(double(path.target)), wrong - wrongBefore,
+                  hessianScale);
+    wrongBefore = wrong;
   });
   std::printf("%s: %d entries judged, %d not, %d wrong; %d paths not finite\n", GetParam().name,
               judged, unjudged, wrong, notFinite);

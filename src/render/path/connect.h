@@ -2,6 +2,8 @@
 // the caller's.
 #pragma once
 
+#include <algorithm>
+
 #include "render/path/subpath.h"
 
 namespace h2mc {
@@ -23,10 +25,14 @@ struct Contribution {
   static Contribution none() { return {Rgb<T>(T(0)), T(0)}; }
 };
 
-// 1 / (1 + a^2 + b^2).
+// 1 / (1 + a^2 + b^2), a, b >= 0. Scaled by the largest of the three, so that neither the squares
+// leave float's range nor the derivatives of the quotient, which has the square's cube in it.
 template <class T>
 T powerWeight(const T& a, const T& b) {
-  return T(1) / (a * a + b * b + Scalar<T>(1));
+  using S = Scalar<T>;
+  const S scale = S(1) / std::max({S(1), value(a), value(b)});
+  const T x = a * scale, y = b * scale;
+  return T(scale * scale) / (x * x + y * y + scale * scale);
 }
 
 // s = 0: the camera subpath has arrived at the area light `light`.

@@ -44,7 +44,10 @@ T joinedLogTarget(const Scene& scene, const Path& path, const PathRay<T>& camera
   } else {
     c = connectVertices<T>(scene, camera, cameraId, light, lightId);
   }
-  return log(luminance(c.value) * c.weight);
+  // Scaled to 1 first: the second derivative of a logarithm leaves float's range at 1e-19.
+  const T target = luminance(c.value) * c.weight;
+  const Scalar<T> value = ad::value(target);
+  return log(target * (Scalar<T>(1) / value)) + log(value);
 }
 
 template <class T>
