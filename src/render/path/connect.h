@@ -32,7 +32,7 @@ T powerWeight(const T& a, const T& b) {
   using S = Scalar<T>;
   const S scale = S(1) / std::max({S(1), value(a), value(b)});
   const T x = a * scale, y = b * scale;
-  return T(scale * scale) / (x * x + y * y + scale * scale);
+  return (scale * scale) / (x * x + y * y + scale * scale);
 }
 
 // s = 0: the camera subpath has arrived at the area light `light`.
