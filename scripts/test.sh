@@ -72,14 +72,15 @@ else
 fi
 
 if [[ $quick == no ]]; then
-  if step "build: address and undefined-behaviour sanitizers" build asan all "-DH2MC_TEST_FOLDERS=unit;derivative" -DH2MC_BUILD_BENCHMARKS=OFF; then
+  if step "build: address and undefined-behaviour sanitizers" \
+      build asan all "-DH2MC_TEST_FOLDERS=unit;derivative" -DH2MC_BUILD_BENCHMARKS=OFF; then
     step "tests: unit, derivative and cli under the sanitizers" asan_tests
   else
     skip "tests: unit, derivative and cli under the sanitizers" "not built"
   fi
   if command -v clang++ >/dev/null; then
-    if step "build: clang, warnings are errors" build clang all "${build_options[@]}" -DH2MC_TEST_FOLDERS=derivative \
-    -DH2MC_BUILD_BENCHMARKS=OFF; then
+    if step "build: clang, warnings are errors" \
+      build clang all "${build_options[@]}" -DH2MC_TEST_FOLDERS=derivative -DH2MC_BUILD_BENCHMARKS=OFF; then
       step "tests: derivative, compiled by clang" clang_tests
     else
       skip "tests: derivative, compiled by clang" "not built"
