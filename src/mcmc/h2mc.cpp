@@ -32,11 +32,18 @@ std::vector<KernelMixture::Small> smallSteps(const SceneTarget& target, const Op
   return steps;
 }
 
+void check(const OptionSet& options) {
+  requireRange(options, "isotropicProbability", 0, 1);
+  requireRange(options, "trajectoryLength", 1e-3, 3.14);
+  requireRange(options, "maxDrift", 0, kNoLimit);
+}
+
 }  // namespace
 
 MetropolisMethod h2mcMethod() {
   return {{"h2mc", "Metropolis light transport with Hessian-Hamiltonian proposals", kParameters},
-          smallSteps};
+          smallSteps,
+          check};
 }
 
 }  // namespace h2mc

@@ -31,7 +31,15 @@ struct ChainGroup {
 class MetropolisIntegrator final : public Integrator {
  public:
   MetropolisIntegrator(const MetropolisMethod& method, const OptionSet& options)
-      : method_(method), options_(options) {}
+      : method_(method), options_(options), maxLength_(maxPathLength(options)) {
+    for (const char* name : {"minDepth", "mutationsPerPixel", "chains", "bootstrapSamples"})
+      requireRange(options, name, 1, kNoLimit);
+    requireRange(options, "directSamples", -1, kNoLimit);
+    for (const char* name : {"largeStepProbability", "lensProbability"})
+      requireRange(options, name, 0, 1);
+    for (const char* name : {"sigma", "lensSigma"}) requireRange(options, name, 1e-9, 1);
+    if (method.check) method.check(options);
+  }
 
   RenderResult render(const Scene& scene, const RenderRequest& request) override;
 
@@ -41,6 +49,7 @@ class MetropolisIntegrator final : public Integrator {
 
   MetropolisMethod method_;
   OptionSet options_;
+  int maxLength_;
 };
 
 // Path tracing of the shortest paths: a Metropolis chain is wasted on them.
@@ -67,7 +76,7 @@ RenderResult MetropolisIntegrator::renderDirect(const Scene& scene, const Render
 
 RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderRequest& request) {
   const double startWall = wallClock(), startCpu = cpuClock();
-  const int maxLength = maxPathLength(options_.integer("maxDepth"));
+  const int maxLength = maxLength_;
   int minLength = options_.integer("minDepth");
   const double pixels = static_cast<double>(scene.film.width) * scene.film.height;
   long long mutationsPerPixel = request.budget.mutationsPerPixel + request.budget.samplesPerPixel;

@@ -12,8 +12,10 @@ struct MetropolisMethod {
   IntegratorPlugin plugin;
   std::vector<KernelMixture::Small> (*smallSteps)(const SceneTarget& target,
                                                   const OptionSet& options);
+  void (*check)(const OptionSet& options) = nullptr;  // throws OptionError for its own options
 };
 
+// Throws OptionError for options out of range.
 std::unique_ptr<Integrator> makeMetropolisIntegrator(const MetropolisMethod& method,
                                                      const OptionSet& options);
 

@@ -24,7 +24,7 @@ TEST_P(OwnScenes, SlowIntegratorsAgree) {
       readTestScene(std::string(H2MC_SOURCE_DIR) + "/scenes/" + name + "/" + name + ".xml", 96, 72);
   const auto depth = std::pair<std::string, std::string>{"maxDepth", "5"};
   // Bidirectional path tracing sees every path that the chains see, with independent samples.
-  const Runs trusted = renderRuns(scene, "bdpt", {depth}, 16, 64, kEdge);
+  const Runs trusted = renderRuns(scene, "bdpt", {depth}, 16, 96, kEdge);
   std::vector<double> mean, variance;
   for (std::size_t k = 0; k < trusted.size(); ++k) {
     mean.push_back(trusted.mean(k));
@@ -34,10 +34,10 @@ TEST_P(OwnScenes, SlowIntegratorsAgree) {
     std::vector<std::pair<std::string, std::string>> options{depth};
     const bool chain = std::string(integrator) != "path";
     if (chain) {
-      options.emplace_back("bootstrapSamples", "50000");
+      options.emplace_back("bootstrapSamples", "400000");
       options.emplace_back("chains", "256");
     }
-    expectAgreement(renderRuns(scene, integrator, options, kRuns, chain ? 48 : 128, kEdge), mean,
+    expectAgreement(renderRuns(scene, integrator, options, kRuns, chain ? 48 : 192, kEdge), mean,
                     variance, 1.5e-2, name + " " + integrator);
   }
 }

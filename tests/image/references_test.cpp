@@ -47,14 +47,15 @@ std::vector<Case> cases() {
        {"checker_point", "conductor", "dielectric_constant", "diffuse_area", "envmap",
         "fov_y_gaussian", "phong", "plastic", "roughconductor_beckmann", "roughconductor_ggx",
         "roughdielectric", "roughplastic", "white_furnace_phong"})
-    list.push_back({scene, "path", 8, 24, 4e-3});
+    list.push_back(
+        {scene, "path", 8, std::string(scene) == "roughconductor_beckmann" ? 96 : 24, 4e-3});
   for (const char* scene : {"diffuse_area", "plastic", "roughdielectric", "dielectric_constant"}) {
     list.push_back({scene, "bdpt", 8, 12, 1e-2});
     for (const char* integrator : {"mmlt", "h2mc"})
       list.push_back(
           {scene, integrator, 8, 16, 1.5e-2, {{"bootstrapSamples", "30000"}, {"chains", "256"}}});
   }
-  list.push_back({"torus", "path", 6, 16, 1.5e-2});
+  list.push_back({"torus", "path", 8, 24, 1.5e-2});
   list.push_back({"torus", "bdpt", 6, 10, 1.5e-2});
   list.push_back({"torus", "mmlt", 6, 16, 1.5e-2});
   list.push_back({"torus", "h2mc", 6, 12, 1.5e-2});

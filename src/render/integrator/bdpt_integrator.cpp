@@ -37,7 +37,10 @@ class BdptSampler final : public PixelSampler {
 class BdptIntegrator final : public Integrator {
  public:
   explicit BdptIntegrator(const OptionSet& options)
-      : options_(options), maxDepth_(maxPathLength(options.integer("maxDepth"))) {}
+      : options_(options), maxDepth_(maxPathLength(options)) {
+    requireRange(options, "minDepth", 1, kNoLimit);
+    requireRange(options, "samplesPerPixel", 1, kNoLimit);
+  }
 
   RenderResult render(const Scene& scene, const RenderRequest& request) override {
     return renderSamples(scene, request, options_.integer("samplesPerPixel"), [&] {

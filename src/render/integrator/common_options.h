@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "render/core/types.h"
+#include "render/scene/option_set.h"
 #include "render/scene/plugin.h"
 
 namespace h2mc {
@@ -14,9 +16,14 @@ inline constexpr Parameter kMaxDepthParameter = {
 inline constexpr Parameter kMinDepthParameter = {"minDepth", ParameterType::kInteger, "1",
                                                  "shortest path in edges"};
 
-// The longest path for a maxDepth option.
-inline int maxPathLength(int maxDepth) {
-  return maxDepth < 0 ? kMaxPathLength : std::min(maxDepth, kMaxPathLength);
+inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+// The longest path for the option maxDepth. Throws OptionError for numbers that mean nothing.
+inline int maxPathLength(const OptionSet& options) {
+  const int maxDepth = options.integer("maxDepth");
+  if (maxDepth == -1) return kMaxPathLength;
+  requireRange(options, "maxDepth", 1, kNoLimit);
+  return std::min(maxDepth, kMaxPathLength);
 }
 
 // The largest float below 1: film positions stay on the film when they are rounded.

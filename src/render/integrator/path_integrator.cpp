@@ -96,18 +96,21 @@ class PathSampler final : public PixelSampler {
 
 class PathIntegrator final : public Integrator {
  public:
-  explicit PathIntegrator(const OptionSet& options) : options_(options) {}
+  explicit PathIntegrator(const OptionSet& options)
+      : options_(options),
+        path_{options.integer("minDepth"), maxPathLength(options), options.integer("rrDepth")} {
+    for (const char* name : {"minDepth", "rrDepth", "samplesPerPixel"})
+      requireRange(options, name, 1, kNoLimit);
+  }
 
   RenderResult render(const Scene& scene, const RenderRequest& request) override {
-    const PathOptions path{options_.integer("minDepth"),
-                           maxPathLength(options_.integer("maxDepth")),
-                           options_.integer("rrDepth")};
     return renderSamples(scene, request, options_.integer("samplesPerPixel"),
-                         [&] { return std::make_unique<PathSampler>(path); });
+                         [&] { return std::make_unique<PathSampler>(path_); });
   }
 
  private:
   OptionSet options_;
+  PathOptions path_;
 };
 
 constexpr Parameter kParameters[] = {

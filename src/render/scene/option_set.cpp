@@ -1,5 +1,8 @@
 #include "render/scene/option_set.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <limits>
 
 #include "render/scene/suggestion.h"
@@ -92,6 +95,15 @@ double OptionSet::number(std::string_view name) const { return parseNumber(strin
 const std::string& OptionSet::string(std::string_view name) const {
   find(name);
   return values_.find(name)->second;
+}
+
+void requireRange(const OptionSet& options, std::string_view name, double low, double high) {
+  const double value = options.number(name);
+  if (value >= low && value <= high) return;
+  const std::string expected = std::isinf(high) ? fmt::format("at least {:g}", low)
+                                                : fmt::format("from {:g} to {:g}", low, high);
+  throw OptionError(fmt::format("option \"{}\" of integrator \"{}\" is {:g}; expected {}", name,
+                                options.integrator(), value, expected));
 }
 
 }  // namespace h2mc

@@ -53,4 +53,7 @@ class OptionSet {
   std::map<std::string, bool, std::less<>> given_;
 };
 
+// Throws OptionError unless the numeric option lies in [low, high].
+void requireRange(const OptionSet& options, std::string_view name, double low, double high);
+
 }  // namespace h2mc
