@@ -118,8 +118,8 @@ inline void expectAgreement(const Runs& runs, const std::vector<double>& referen
     const double s = std::sqrt(std::max(runs.variance(k), shared) + referenceVariance[k]);
     outside += std::abs(runs.mean(k) - reference[k]) > 5 * s + 1e-6 * mean;
   }
-  // 5 standard errors, heavy tails allowed for: of a hundred blocks not more than two.
-  EXPECT_LE(outside, static_cast<int>(whole) / 50) << what << ": blocks of pixels that differ";
+  // 5 standard errors, heavy tails allowed for: one block, and two of every hundred.
+  EXPECT_LE(outside, 1 + static_cast<int>(whole) / 50) << what << ": blocks of pixels that differ";
 }
 
 // The published references; false, loudly, where the folder is not there.
