@@ -11,21 +11,14 @@ class BdptSampler final : public PixelSampler {
  public:
   BdptSampler(int minLength, int maxLength) : minLength_(minLength), sampler_(maxLength) {}
 
-  double sample(const Scene& scene, std::uint64_t seed, std::uint64_t pixel, std::uint64_t pass,
-                Film& film, SampleTally& tally) override {
-    Random random(seed, pixel, pass);
-    const auto width = static_cast<std::uint64_t>(film.width());
-    const float x =
-        (static_cast<float>(pixel % width) + random.uniform()) / static_cast<float>(width);
-    const float y =
-        (static_cast<float>(pixel / width) + random.uniform()) / static_cast<float>(film.height());
+  double sample(const Scene& scene, Random& random, float filmX, float filmY, Film& film,
+                SampleTally& tally) override {
     double added = 0;
-    tally.notFinite +=
-        sampler_.sample(scene, random, std::min(x, kBelowOne), std::min(y, kBelowOne), minLength_,
-                        [&](const BidirectionalSampler::Connection& c) {
-                          film.splat(c.filmX, c.filmY, c.contribution);
-                          added += luminance(c.contribution);
-                        });
+    tally.notFinite += sampler_.sample(scene, random, filmX, filmY, minLength_,
+                                       [&](const BidirectionalSampler::Connection& c) {
+                                         film.splat(c.filmX, c.filmY, c.contribution);
+                                         added += luminance(c.contribution);
+                                       });
     return added;
   }
 

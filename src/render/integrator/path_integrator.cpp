@@ -16,16 +16,10 @@ class PathSampler final : public PixelSampler {
  public:
   explicit PathSampler(const PathOptions& options) : options_(options) {}
 
-  double sample(const Scene& scene, std::uint64_t seed, std::uint64_t pixel, std::uint64_t pass,
-                Film& film, SampleTally& tally) override {
-    Random random(seed, pixel, pass);
-    const auto width = static_cast<std::uint64_t>(film.width());
-    const float x = std::min(kBelowOne, (static_cast<float>(pixel % width) + random.uniform()) /
-                                            static_cast<float>(width));
-    const float y = std::min(kBelowOne, (static_cast<float>(pixel / width) + random.uniform()) /
-                                            static_cast<float>(film.height()));
-    Rgbf radiance = trace(scene, random, startCamera<float>(scene, x, y), tally);
-    film.splat(x, y, radiance);
+  double sample(const Scene& scene, Random& random, float filmX, float filmY, Film& film,
+                SampleTally& tally) override {
+    Rgbf radiance = trace(scene, random, startCamera<float>(scene, filmX, filmY), tally);
+    film.splat(filmX, filmY, radiance);
     return luminance(radiance);
   }
 

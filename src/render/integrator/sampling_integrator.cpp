@@ -6,6 +6,16 @@
 
 namespace h2mc {
 
+namespace {
+
+// A uniform position in pixel number `pixel` of a row or column of `size`, in [0, 1).
+float positionIn(int pixel, int size, Random& random) {
+  return std::min(kBelowOne,
+                  (static_cast<float>(pixel) + random.uniform()) / static_cast<float>(size));
+}
+
+}  // namespace
+
 RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
                            int defaultSamplesPerPixel,
                            const std::function<std::unique_ptr<PixelSampler>()>& makeSampler) {
@@ -35,8 +45,9 @@ RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
       for (int x = 0; x < width; ++x) {
         const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width) +
                            static_cast<std::uint64_t>(x);
-        const double added = group.sampler->sample(
-            scene, request.seed, pixel, static_cast<std::uint64_t>(round), group.film, tally);
+        Random random(request.seed, pixel, static_cast<std::uint64_t>(round));
+        const float filmX = positionIn(x, width, random), filmY = positionIn(y, height, random);
+        const double added = group.sampler->sample(scene, random, filmX, filmY, group.film, tally);
         tally.luminance += added;
         tally.squares += added * added;
         ++tally.samples;

@@ -1,6 +1,7 @@
 // What path and bdpt share: a number of independent samples for each pixel, added up on films.
 #pragma once
 
+#include "render/core/random.h"
 #include "render/image/film.h"
 #include "render/integrator/integrator.h"
 #include "render/scene/scene.h"
@@ -18,10 +19,10 @@ struct SampleTally {
 class PixelSampler {
  public:
   virtual ~PixelSampler() = default;
-  // Adds one sample of the pixel to the film: its camera ray passes through (filmX, filmY).
+  // Adds one sample to the film, whose camera ray passes through (filmX, filmY).
   // Returns the luminance of all that it has added.
-  virtual double sample(const Scene& scene, std::uint64_t seed, std::uint64_t pixel,
-                        std::uint64_t pass, Film& film, SampleTally& tally) = 0;
+  virtual double sample(const Scene& scene, Random& random, float filmX, float filmY, Film& film,
+                        SampleTally& tally) = 0;
 };
 
 // Renders samplesPerPixel passes (or by time) with a sampler for each group.

@@ -13,7 +13,7 @@ namespace {
 
 // The value as it is kept: without blanks, words in lower case. Throws ValueError.
 std::string normalised(const Parameter& parameter, const std::string& text) {
-  const std::string word(trimmed(text));
+  std::string word(trimmed(text));
   switch (parameter.type) {
     case ParameterType::kBoolean:
       return parseBoolean(lowerCase(word)) ? "true" : "false";
