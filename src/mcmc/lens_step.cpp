@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/bsdf/lobe_choice.h"
+#include "render/path/lens_replay.h"
 #include "render/scene/option_set.h"
 
 namespace h2mc {
@@ -14,8 +15,11 @@ bool dark(const Rgbf& c) { return !(c.x > 0) && !(c.y > 0) && !(c.z > 0); }
 }  // namespace
 
 std::unique_ptr<Mutation> makeLensStep(const SceneTarget& target, const OptionSet& options) {
-  return std::make_unique<LensStep>(target, static_cast<float>(options.number("lensSigma")),
-                                    static_cast<float>(options.number("roughnessThreshold")));
+  LensStep::Settings settings;
+  settings.hamiltonian.sigma = static_cast<float>(options.number("lensSigma"));
+  settings.hessian = options.string("lensStep") == "hessian";
+  settings.threshold = static_cast<float>(options.number("roughnessThreshold"));
+  return std::make_unique<LensStep>(target, settings);
 }
 
 bool LensStep::canReconnect(const TracedVertex& vertex) const {
@@ -24,7 +28,7 @@ bool LensStep::canReconnect(const TracedVertex& vertex) const {
   const Scene& scene = target_.scene();
   const Material& material = materialAt(scene, vertex.id);
   return !isDelta(scene.bsdfs, material, vertex.lobe) &&
-         widestLobe(scene.bsdfs, material, vertex.lobe) >= threshold_;
+         widestLobe(scene.bsdfs, material, vertex.lobe) >= settings_.threshold;
 }
 
 int LensStep::reconnectionVertex(const Path& path) const {
@@ -88,6 +92,20 @@ bool LensStep::follow(Path& path, const Path& known, int i) const {
   return true;
 }
 
+void LensStep::prepare(ChainState& state, int reconnection, MutationContext& context) const {
+  if (state.hasLens) return;
+  state.hasLens = true;
+  if (!settings_.hessian) {
+    isotropicGaussian(2, settings_.hamiltonian.sigma, state.lens);
+    return;
+  }
+  Derivative derivative;
+  ++context.derivatives.computed;
+  differentiateLens(target_.scene(), state.path, reconnection, derivative);
+  if (!hamiltonianGaussian(derivative, settings_.hamiltonian, state.lens))
+    ++context.derivatives.notFinite;
+}
+
 bool LensStep::propose(ChainState& current, ChainState& proposed, MutationContext& context,
                        double& logRatio) {
   const Scene& scene = target_.scene();
@@ -97,8 +115,11 @@ bool LensStep::propose(ChainState& current, ChainState& proposed, MutationContex
   const auto [s, t] = from.technique;
   const int last = t - 1;
 
-  const float filmX = from.sample.u[0] + sigma_ * random.normal();
-  const float filmY = from.sample.u[1] + sigma_ * random.normal();
+  const int reconnection = reconnectionVertex(from);
+  prepare(current, reconnection, context);
+  float offset[2];
+  current.lens.sample(random, offset);
+  const float filmX = from.sample.u[0] + offset[0], filmY = from.sample.u[1] + offset[1];
   if (!(filmX >= 0 && filmX < 1 && filmY >= 0 && filmY < 1)) return false;
 
   to.technique = from.technique;
@@ -112,7 +133,6 @@ bool LensStep::propose(ChainState& current, ChainState& proposed, MutationContex
   if (s >= 2) std::copy_n(from.light.begin() + 1, s - 1, to.light.begin() + 1);
 
   // Trace up to the vertex from which the old path can be met again.
-  const int reconnection = reconnectionVertex(from);
   for (int i = 1; i <= reconnection; ++i) {
     const Step step = stepCamera(scene, to, i);
     if (i > 1 && !(to.camera[at(i) - 1].lobe == from.camera[at(i) - 1].lobe)) return false;
@@ -142,6 +162,11 @@ bool LensStep::propose(ChainState& current, ChainState& proposed, MutationContex
   }
   if (!joinSubpaths(scene, to) || reconnectionVertex(to) != reconnection) return false;
   logRatio = logDensity(to, reconnection) - logDensity(from, reconnection);
+  if (settings_.hessian) {
+    prepare(proposed, reconnection, context);
+    const float back[2] = {-offset[0], -offset[1]};
+    logRatio += proposed.lens.logDensity(back) - current.lens.logDensity(offset);
+  }
   return true;
 }
 

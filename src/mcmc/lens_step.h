@@ -10,7 +10,7 @@ namespace h2mc {
 
 class OptionSet;
 
-// Moves the film position by a Gaussian and traces on with the primary coordinates that the path
+// Moves the film position by a Gaussian, round or of the 2 x 2 Hessian, and traces on with the primary coordinates that the path
 // has, through specular and near-specular vertices, up to the first vertex x_i from which it can be
 // reconnected to x_(i+1). From there on all vertices stay. The coordinates of the scatterings at x_i
 // and x_(i+1) then follow by inverting the BSDFs' sampling, with lobes drawn anew.
@@ -20,15 +20,23 @@ class OptionSet;
 // what they lead to.
 class LensStep final : public Mutation {
  public:
-  // sigma: in film widths (and heights); threshold: lobes narrower than this, in radians, are traced
-  // through. Keeps a reference.
-  LensStep(const SceneTarget& target, float sigma, float threshold)
-      : target_(target), sigma_(sigma), threshold_(threshold) {}
+  // Where the film position goes to. `hamiltonian.sigma`, in film widths (and heights), is the
+  // deviation of the round Gaussian and the prior of the one that the 2 x 2 Hessian shapes.
+  struct Settings {
+    HamiltonianSettings hamiltonian;
+    bool hessian = false;
+    float threshold = 0.1f;  // lobes narrower than this, in radians, are traced through
+  };
+  // Keeps a reference.
+  LensStep(const SceneTarget& target, const Settings& settings)
+      : target_(target), settings_(settings) {}
   std::string_view name() const override { return "lens"; }
   bool propose(ChainState& current, ChainState& proposed, MutationContext& context,
                double& logRatio) override;
 
  private:
+  // The Gaussian at a state: over film positions, of what its derivatives are there.
+  void prepare(ChainState& state, int reconnection, MutationContext& context) const;
   // The first camera vertex whose scattering can be replaced by a reconnection to the next vertex;
   // t - 1 if there is none: then the whole subpath is traced again.
   int reconnectionVertex(const Path& path) const;
@@ -41,10 +49,10 @@ class LensStep final : public Mutation {
   static double logDensity(const Path& path, int reconnection);
 
   const SceneTarget& target_;
-  float sigma_, threshold_;
+  Settings settings_;
 };
 
-// With the options lensSigma and roughnessThreshold.
+// With the options lensSigma, lensStep and roughnessThreshold.
 std::unique_ptr<Mutation> makeLensStep(const SceneTarget& target, const OptionSet& options);
 
 }  // namespace h2mc

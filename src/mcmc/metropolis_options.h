@@ -26,6 +26,10 @@ inline constexpr Parameter kMetropolisParameters[] = {
      "share of lens perturbations among the other steps"},
     {"lensSigma", ParameterType::kNumber, "0.01",
      "standard deviation of the lens perturbation, in film widths"},
+    {"lensStep", ParameterType::kString, "isotropic",
+     "what the lens perturbation draws from: a round Gaussian, or one shaped by the Hessian with "
+     "respect to the film position",
+     "isotropic|hessian"},
     {"roughnessThreshold", ParameterType::kNumber, "0.1",
      "scattering lobes narrower than this (radians) are followed, not reconnected to, by the lens "
      "perturbation"},

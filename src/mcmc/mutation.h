@@ -17,12 +17,14 @@ struct ChainState {
   Path path;
   bool hasGaussian = false;
   Gaussian gaussian;
+  bool hasLens = false;
+  Gaussian lens;  // over film positions
   double bidirectional =
       0;  // luminance of a whole bidirectional sample around the path; 0: unknown
 
   // The path is about to change.
   void forget() {
-    hasGaussian = false;
+    hasGaussian = hasLens = false;
     bidirectional = 0;
   }
 };

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "render/integrator/common_options.h"
 #include "render/integrator/parallel_rounds.h"
 
 namespace h2mc {
-
 namespace {
 
 // A uniform position in pixel number `pixel` of a row or column of `size`, in [0, 1).

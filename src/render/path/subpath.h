@@ -88,10 +88,11 @@ PathRay<T> startLight(const Scene& scene, int light, PrimitiveId primitive, cons
       scene.lights[static_cast<std::size_t>(light)]);
 }
 
+// Arrives at a point that the ray is known to hit.
 template <class T>
-PathVertex<T> arriveAt(const Scene& scene, const PathRay<T>& ray, PrimitiveId id) {
+PathVertex<T> arriveAtPoint(const PathRay<T>& ray, const SurfacePoint<T>& point) {
   PathVertex<T> vertex;
-  vertex.point = intersectPrimitive(scene.shapes, id, ray.origin, ray.direction);
+  vertex.point = point;
   const Vec3<T> back = -ray.direction;
   vertex.wi = vertex.point.shading.toLocal(back);
   vertex.cosIn = abs(dot(vertex.point.ng, back));
@@ -103,33 +104,22 @@ PathVertex<T> arriveAt(const Scene& scene, const PathRay<T>& ray, PrimitiveId id
   return vertex;
 }
 
-// Continues from a vertex through `lobe` in the direction that (u0, u1) draw. A throughput of zero
-// means that nothing goes that way.
 template <class T>
-PathRay<T> scatterFrom(const Scene& scene, const PathVertex<T>& vertex, PrimitiveId id, LobeId lobe,
-                       const T& u0, const T& u1, Side side) {
+PathVertex<T> arriveAt(const Scene& scene, const PathRay<T>& ray, PrimitiveId id) {
+  return arriveAtPoint(ray, intersectPrimitive(scene.shapes, id, ray.origin, ray.direction));
+}
+
+// Continues from a vertex in the local direction `wo`, drawn with the density that the material has
+// for it, all of its lobes but delta ones together. A throughput of zero means that nothing goes
+// that way.
+template <class T>
+PathRay<T> scatterTowards(const Scene& scene, const PathVertex<T>& vertex, PrimitiveId id,
+                          const Vec3<T>& wo, Side side) {
   const Material& material = materialAt(scene, id);
   const Vec2<T>& uv = vertex.point.uv;
   PathRay<T> ray;
   ray.origin = vertex.point.p;
   ray.originNormal = value3(vertex.point.ng);
-  if (isDelta(scene.bsdfs, material, lobe)) {
-    const DeltaSample<T> sample = sampleDelta<T>(scene.bsdfs, material, uv, vertex.wi, lobe);
-    ray.direction = vertex.point.shading.toWorld(sample.wo);
-    const T cosOut = abs(dot(vertex.point.ng, ray.direction));
-    const T inverse = T(1) / sample.probability;
-    if (side == Side::kCamera) {
-      ray.throughput = vertex.throughput * sample.radiance * inverse;
-    } else {
-      // Shading normals make scattering non-symmetric [Veach 1997, section 5.3].
-      const T correction = abs(vertex.wi.z) * cosOut / (vertex.cosIn * abs(sample.wo.z));
-      ray.throughput = vertex.throughput * sample.importance * (inverse * correction);
-    }
-    ray.vcm = T(0);
-    ray.vc = vertex.vc * cosOut;
-    return ray;
-  }
-  const Vec3<T> wo = sampleMaterial<T>(scene.bsdfs, material, uv, vertex.wi, lobe, u0, u1);
   ray.direction = vertex.point.shading.toWorld(wo);
   const T cosOut = abs(dot(vertex.point.ng, ray.direction));
   T pdf, reverse, factor;
@@ -157,6 +147,41 @@ PathRay<T> scatterFrom(const Scene& scene, const PathVertex<T>& vertex, Primitiv
   ray.vcm = inverse;
   ray.vc = cosOut * inverse * rootOfSquares(vertex.vc * reverse, vertex.vcm);
   return ray;
+}
+
+// Continues from a vertex through the delta lobe `lobe`.
+template <class T>
+PathRay<T> scatterDelta(const Scene& scene, const PathVertex<T>& vertex, PrimitiveId id,
+                        LobeId lobe, Side side) {
+  PathRay<T> ray;
+  ray.origin = vertex.point.p;
+  ray.originNormal = value3(vertex.point.ng);
+  const DeltaSample<T> sample =
+      sampleDelta<T>(scene.bsdfs, materialAt(scene, id), vertex.point.uv, vertex.wi, lobe);
+  ray.direction = vertex.point.shading.toWorld(sample.wo);
+  const T cosOut = abs(dot(vertex.point.ng, ray.direction));
+  const T inverse = T(1) / sample.probability;
+  if (side == Side::kCamera) {
+    ray.throughput = vertex.throughput * sample.radiance * inverse;
+  } else {
+    // Shading normals make scattering non-symmetric [Veach 1997, section 5.3].
+    const T correction = abs(vertex.wi.z) * cosOut / (vertex.cosIn * abs(sample.wo.z));
+    ray.throughput = vertex.throughput * sample.importance * (inverse * correction);
+  }
+  ray.vcm = T(0);
+  ray.vc = vertex.vc * cosOut;
+  return ray;
+}
+
+// Continues from a vertex through `lobe` in the direction that (u0, u1) draw.
+template <class T>
+PathRay<T> scatterFrom(const Scene& scene, const PathVertex<T>& vertex, PrimitiveId id, LobeId lobe,
+                       const T& u0, const T& u1, Side side) {
+  const Material& material = materialAt(scene, id);
+  if (isDelta(scene.bsdfs, material, lobe)) return scatterDelta(scene, vertex, id, lobe, side);
+  const Vec3<T> wo =
+      sampleMaterial<T>(scene.bsdfs, material, vertex.point.uv, vertex.wi, lobe, u0, u1);
+  return scatterTowards(scene, vertex, id, wo, side);
 }
 
 }  // namespace h2mc
