@@ -1,5 +1,7 @@
 #include "cli/integrator_choice.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -28,7 +30,8 @@ Wish parse(const std::string& text) {
     const std::string option = text.substr(begin, end - begin);
     const std::size_t equals = option.find('=');
     if (equals == 0 || equals == std::string::npos)
-      throw InputError("--integrator " + text + ": expected option=value, got \"" + option + "\"");
+      throw InputError(
+          fmt::format("--integrator {}: expected option=value, got \"{}\"", text, option));
     wish.options.emplace_back(option.substr(0, equals), option.substr(equals + 1));
     begin = end + 1;
   }
@@ -79,7 +82,7 @@ IntegratorChoice chooseIntegrator(const std::string& wishText, const Scene& scen
 std::string optionText(const OptionSet& options) {
   std::string text;
   for (const auto& [name, value] : options.values())
-    text += (text.empty() ? "" : ",") + name + "=" + value;
+    text += fmt::format("{}{}={}", text.empty() ? "" : ",", name, value);
   return text;
 }
 

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 
 #include "ad/finite_difference.h"
 #include "mcmc/integrators.h"
-#include "render/path/bidirectional.h"
 #include "render/path/derivative.h"
 #include "render/path/replay.h"
 #include "render/scene/scene_reader.h"
+#include "sampled_paths.h"
 
 namespace h2mc {
 namespace {
@@ -53,24 +52,11 @@ class PathDerivative : public testing::TestWithParam<Case> {
   // Calls visit(path) for up to `perTechnique` traced paths of each technique.
   template <class Visit>
   void forPaths(int perTechnique, int samples, Visit&& visit) {
-    const int maxLength = GetParam().maxLength;
-    BidirectionalSampler sampler(maxLength);
-    Path path(maxLength);
-    std::map<std::pair<int, int>, int> seen;
-    for (int i = 0; i < samples; ++i) {
-      Random random(5, 0, static_cast<std::uint64_t>(i));
-      sampler.sample(*scene_, random, -1, -1, 1, [&](const BidirectionalSampler::Connection& c) {
-        int& count = seen[{c.technique.s, c.technique.t}];
-        if (count >= perTechnique) return;
-        ++count;
-        path.technique = c.technique;
-        path.sample = sampler.primarySample(c.technique);
-        ASSERT_TRUE(tracePath(*scene_, path));
-        EXPECT_EQ(path.target, luminance(c.contribution)) << "replayed sample " << i;
-        visit(path);
-      });
-    }
-    techniques_ = seen.size();
+    techniques_ = test::forSampledPaths(*scene_, GetParam().maxLength, perTechnique, samples,
+                                        [&](const Path& path, float sampled) {
+                                          EXPECT_EQ(path.target, sampled) << "replayed";
+                                          visit(path);
+                                        });
   }
 
   std::unique_ptr<Scene> scene_;
