@@ -42,8 +42,12 @@ Chain::Chain(const Target& target, const Path& start, Random random)
 }
 
 void Chain::flush(Film& film) {
-  if (weight_ > 0) Mutation::splatPath(current_->path, weight_, film);
+  splatPending(film);
   weight_ = 0;
+}
+
+void Chain::splatPending(Film& film) const {
+  if (weight_ > 0) Mutation::splatPath(current_->path, weight_, film);
 }
 
 void Chain::step(KernelMixture& kernels, Film& film, ChainStatistics& statistics,

@@ -37,6 +37,8 @@ class Chain {
 
   // Splats what has gathered on the present state. Call before the film is read.
   void flush(Film& film);
+  // The same for a copy of the film that is read while the chain goes on.
+  void splatPending(Film& film) const;
 
   bool moved() const { return moved_; }
   const Path& path() const { return current_->path; }

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "mcmc/bootstrap.h"
+#include "mcmc/direct_lighting.h"
 #include "render/integrator/common_options.h"
 #include "render/integrator/parallel_rounds.h"
-#include "render/integrator/path_integrator.h"
 
 namespace h2mc {
 namespace {
@@ -16,8 +16,6 @@ namespace {
 constexpr std::uint64_t kStartStream = 0x73746172, kChainStream = 0x636861696e;
 // Mutations of a chain in one round: a round of all chains takes a fraction of a second.
 constexpr long long kRound = 256;
-// Paths that direct lighting is made of, where it is split off.
-constexpr int kDirectLength = 2;
 
 // One group's chains, with what must not be shared.
 struct ChainGroup {
@@ -44,38 +42,70 @@ class MetropolisIntegrator final : public Integrator {
   RenderResult render(const Scene& scene, const RenderRequest& request) override;
 
  private:
-  RenderResult renderDirect(const Scene& scene, const RenderRequest& request,
-                            long long mutationsPerPixel) const;
-
   MetropolisMethod method_;
   OptionSet options_;
   int maxLength_;
 };
 
-// Path tracing of the shortest paths: a Metropolis chain is wasted on them.
-RenderResult MetropolisIntegrator::renderDirect(const Scene& scene, const RenderRequest& request,
-                                                long long mutationsPerPixel) const {
-  constexpr double kTimeShare = 0.1;
-  const int wanted = options_.integer("directSamples");
-  const IntegratorFactory factory = pathIntegrator();
-  OptionSet options(factory.plugin);
-  options.set("maxDepth", std::to_string(kDirectLength));
-  options.set("minDepth", std::to_string(options_.integer("minDepth")));
-  RenderRequest own = request;
-  own.progress = nullptr;
-  own.budget = {};
-  // A time budget holds for the whole render: the scene's number of samples is then an upper limit.
-  if (request.budget.seconds > 0) own.budget.seconds = kTimeShare * request.budget.seconds;
-  if (wanted > 0) {
-    own.budget.samplesPerPixel = wanted;
-  } else if (request.budget.seconds <= 0) {
-    own.budget.samplesPerPixel = std::clamp(mutationsPerPixel / 4, 1LL, 256LL);
+// Brightness: bootstrap samples and large steps both estimate it without bias. A multiplexed large
+// step sees one technique where a bootstrap sample sees all; the bootstrap knows both variances.
+// The large steps' weight against bootstrap samples.
+double largeStepWeight(const Bootstrap& bootstrap, const TechniqueDistribution& techniques) {
+  double multiplexed = 0;
+  for (int k = 0; k < techniques.size(); ++k)
+    if (techniques.probability(k) > 0)
+      multiplexed +=
+          bootstrap.techniqueSquares()[static_cast<std::size_t>(k)] / techniques.probability(k);
+  const Moments& first = bootstrap.luminance();
+  const double spread = std::max(multiplexed - squared(first.mean()), 1e-30);
+  return std::min(1.0, first.variance() / spread);
+}
+
+// What the chains have so far, but for the time; leaves them as they are.
+RenderResult chainResult(const Scene& scene, const std::vector<ChainGroup>& work, int maxLength,
+                         const Bootstrap& bootstrap, double weight) {
+  ChainStatistics total(work[0].kernels.kinds(), maxLength);
+  long long chains = 0, neverMoved = 0;
+  Film film(scene.film);
+  for (const ChainGroup& group : work) {
+    ChainStatistics statistics = group.statistics;
+    statistics.derivatives = group.context.derivatives;
+    total.add(statistics);
+    film.merge(group.film);
+    for (const auto& chain : group.chains) {
+      chain->splatPending(film);
+      neverMoved += !chain->moved();
+      ++chains;
+    }
   }
-  return factory.create(options)->render(scene, own);
+  const Moments& first = bootstrap.luminance();
+  const double n0 = static_cast<double>(first.count);
+  const double n1 = weight * static_cast<double>(total.largeSteps.count);
+  const double brightness = (n0 * first.mean() + n1 * total.largeSteps.mean()) / (n0 + n1);
+  const double mutations = static_cast<double>(total.mutations);
+
+  RenderResult result;
+  result.sampleUnit = "mutations";
+  result.image = film.develop(mutations > 0 ? brightness / mutations : 0);
+  result.samples = total.mutations;
+  result.meanLuminance = brightness;
+  result.meanLuminanceError =
+      std::hypot(n0 * first.standardError(), n1 * total.largeSteps.standardError()) / (n0 + n1);
+  result.statistics = total.json(work[0].kernels.kindNames());
+  result.statistics["chains"] = chains;
+  result.statistics["chains that never moved"] = neverMoved;
+  result.statistics["bootstrap"] = {{"samples", first.count},
+                                    {"mean luminance", first.mean()},
+                                    {"standard error", first.standardError()},
+                                    {"not finite", bootstrap.notFinite()}};
+  result.statistics["large steps"] = {{"mean luminance", total.largeSteps.mean()},
+                                      {"standard error", total.largeSteps.standardError()},
+                                      {"weight", weight}};
+  return result;
 }
 
 RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderRequest& request) {
-  const double startWall = wallClock(), startCpu = cpuClock();
+  RenderClock clock;
   const int maxLength = maxLength_;
   int minLength = options_.integer("minDepth");
   const double pixels = static_cast<double>(scene.film.width) * scene.film.height;
@@ -83,36 +113,42 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
   if (mutationsPerPixel == 0 && request.budget.seconds <= 0)
     mutationsPerPixel = options_.integer("mutationsPerPixel");
 
-  RenderResult direct;
-  const bool split = options_.integer("directSamples") != 0 && minLength <= kDirectLength;
-  if (split) {
-    direct = renderDirect(scene, request, mutationsPerPixel);
-    minLength = kDirectLength + 1;
-  }
-
-  RenderResult result;
-  result.sampleUnit = "mutations";
-  const auto finish = [&] {
-    if (split) {
-      if (result.image.pixels.empty())
-        result.image = direct.image;
-      else
-        for (std::size_t i = 0; i < result.image.pixels.size(); ++i)
-          result.image.pixels[i] += direct.image.pixels[i];
-      result.meanLuminance += direct.meanLuminance;
-      result.meanLuminanceError = std::hypot(result.meanLuminanceError, direct.meanLuminanceError);
-      result.statistics["direct lighting"] = direct.statistics;
-    }
+  DirectLighting direct(scene, options_, request);
+  const bool split = direct.wanted();
+  if (split) minLength = DirectLighting::kLongest + 1;
+  // Direct lighting keeps pace with the chains: up to mark i it gets what a render that ends there
+  // would give it.
+  const auto extendDirect = [&](std::size_t mark) {
+    if (!split) return;
+    const double end = mark < request.marks.size() ? request.marks[mark] : 0;
+    if (request.budget.seconds > 0)
+      direct.extendTo(end > 0 ? end : request.budget.seconds, 0);
+    else
+      direct.extendTo(0, end > 0 ? std::llround(end) : mutationsPerPixel);
+  };
+  const auto finished = [&](RenderResult result) {
+    result.sampleUnit = "mutations";
+    if (split) direct.addTo(result);
     if (result.image.pixels.empty()) result.image = Image(scene.film.width, scene.film.height);
     result.statistics["mean luminance"] = result.meanLuminance;
     result.statistics["mean luminance standard error"] = result.meanLuminanceError;
-    result.wallSeconds = wallClock() - startWall;
-    result.cpuSeconds = cpuClock() - startCpu;
-  };
-  if (minLength > maxLength) {
-    finish();
+    result.wallSeconds = clock.wallSeconds();
+    result.cpuSeconds = clock.cpuSeconds();
     return result;
-  }
+  };
+  const auto callMark = [&](std::size_t mark, const RenderResult& result) {
+    clock.exclude([&] { request.atMark(mark, finished(result)); });
+    extendDirect(mark + 1);
+  };
+  // Where there is nothing for the chains to do.
+  const auto directAlone = [&] {
+    for (std::size_t mark = 0; mark < request.marks.size() && !direct.interrupted(); ++mark)
+      callMark(mark, {});
+    return finished({});
+  };
+
+  extendDirect(0);
+  if (minLength > maxLength) return directAlone();
 
   const long long bootstrapSamples = std::max(1, options_.integer("bootstrapSamples"));
   const Bootstrap bootstrap(scene, minLength, maxLength, bootstrapSamples, request.seed,
@@ -120,8 +156,7 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
   if (!(bootstrap.luminance().mean() > 0)) {
     spdlog::warn("no light arrives through paths of {} to {} edges: nothing to sample there",
                  minLength, maxLength);
-    finish();
-    return result;
+    return directAlone();
   }
 
   const SceneTarget target(scene, maxLength);
@@ -163,21 +198,29 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
   plan.unitsPerRound = static_cast<double>(chainCount) * kRound;
   long long stepsPerChain = 0;  // 0: by time
   if (request.budget.seconds > 0) {
-    plan.seconds = std::max(request.budget.seconds - (wallClock() - startWall), 1e-3);
+    plan.seconds = request.budget.seconds;
+    plan.marks = request.marks;
   } else {
     stepsPerChain = static_cast<long long>(
         std::ceil(static_cast<double>(mutationsPerPixel) * pixels / chainCount));
     plan.rounds = (stepsPerChain + kRound - 1) / kRound;
+    for (const double mark : request.marks)
+      plan.marks.push_back(mark * pixels / chainCount / kRound);
   }
   RenderRequest chainRequest = request;
+  const double weight = bidirectional ? 1 : largeStepWeight(bootstrap, techniques);
+  plan.atMark = [&](std::size_t mark, const RoundsResult&) {
+    callMark(mark, chainResult(scene, work, maxLength, bootstrap, weight));
+  };
   // Stopped before the chains began: one round, so that the image is whole.
   const std::atomic<bool> goOn{false};
-  if (direct.interrupted) {
+  if (direct.interrupted()) {
     chainRequest.stop = &goOn;
     plan.rounds = 1;
+    plan.marks.clear();
   }
   const RoundsResult rounds =
-      runRounds(chainRequest, groups, plan, [&](int index, long long round) {
+      runRounds(chainRequest, clock, groups, plan, [&](int index, long long round) {
         ChainGroup& group = work[static_cast<std::size_t>(index)];
         const long long steps =
             stepsPerChain > 0 ? std::min(kRound, stepsPerChain - round * kRound) : kRound;
@@ -186,53 +229,9 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
             chain->step(group.kernels, group.film, group.statistics, group.context);
       });
 
-  ChainStatistics total(work[0].kernels.kinds(), maxLength);
-  long long neverMoved = 0;
-  for (ChainGroup& group : work) {
-    group.statistics.derivatives = group.context.derivatives;
-    total.add(group.statistics);
-    for (const auto& chain : group.chains) {
-      chain->flush(group.film);
-      neverMoved += !chain->moved();
-    }
-  }
-  for (std::size_t i = 1; i < work.size(); ++i) work[0].film.merge(work[i].film);
-
-  // Brightness: bootstrap samples and large steps both estimate it without bias. A multiplexed large
-  // step sees one technique where a bootstrap sample sees all; the bootstrap knows both variances.
-  double multiplexed = 0;
-  for (int k = 0; k < techniques.size(); ++k)
-    if (techniques.probability(k) > 0)
-      multiplexed +=
-          bootstrap.techniqueSquares()[static_cast<std::size_t>(k)] / techniques.probability(k);
-  const Moments& first = bootstrap.luminance();
-  const double spread = std::max(multiplexed - squared(first.mean()), 1e-30);
-  const double weight = bidirectional ? 1 : std::min(1.0, first.variance() / spread);
-  const double n0 = static_cast<double>(first.count);
-  const double n1 = weight * static_cast<double>(total.largeSteps.count);
-  const double brightness = (n0 * first.mean() + n1 * total.largeSteps.mean()) / (n0 + n1);
-  const double error =
-      std::hypot(n0 * first.standardError(), n1 * total.largeSteps.standardError()) / (n0 + n1);
-
-  const double mutations = static_cast<double>(total.mutations);
-  result.image = work[0].film.develop(mutations > 0 ? brightness / mutations : 0);
-  result.samples = total.mutations;
-  result.interrupted = rounds.interrupted || direct.interrupted;
-  result.meanLuminance = brightness;
-  result.meanLuminanceError = error;
-  result.statistics = total.json(work[0].kernels.kindNames());
-  result.statistics["chains"] = chainCount;
-  result.statistics["chains that never moved"] = neverMoved;
-  result.statistics["mutations per second"] = mutations / std::max(rounds.wallSeconds, 1e-9);
-  result.statistics["bootstrap"] = {{"samples", first.count},
-                                    {"mean luminance", first.mean()},
-                                    {"standard error", first.standardError()},
-                                    {"not finite", bootstrap.notFinite()}};
-  result.statistics["large steps"] = {{"mean luminance", total.largeSteps.mean()},
-                                      {"standard error", total.largeSteps.standardError()},
-                                      {"weight", weight}};
-  finish();
-  return result;
+  RenderResult result = chainResult(scene, work, maxLength, bootstrap, weight);
+  result.interrupted = rounds.interrupted;
+  return finished(std::move(result));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "render/image/image.h"
 #include "render/scene/option_set.h"
@@ -31,8 +32,17 @@ struct RenderProgress {
   std::string rateUnit;
 };
 
+struct RenderResult;
+
 struct RenderRequest {
   RenderBudget budget;
+  // Where on the way the image is wanted too: ascending, none beyond the budget, in seconds where the
+  // budget is a time, else in samples or mutations a pixel. atMark(i, the result so far) is called
+  // from the rendering thread after the round of samples that ends nearest to a time, or first
+  // reaches a number; two marks within a round get the same image. What making it and the call take
+  // is not counted as time. An interruption leaves out the marks to come.
+  std::vector<double> marks;
+  std::function<void(std::size_t mark, const RenderResult&)> atMark;
   std::uint64_t seed = 0;
   int threads = 0;  // 0: one a core
   std::function<void(const RenderProgress&)>

@@ -40,34 +40,57 @@ void parallelFor(int threads, int count, const std::function<void(int)>& work) {
   });
 }
 
-RoundsResult runRounds(const RenderRequest& request, int groups, const RoundsPlan& plan,
-                       const std::function<void(int, long long)>& work) {
+RenderClock::RenderClock() : wall_(wallClock()), cpu_(cpuClock()) {}
+
+double RenderClock::wallSeconds() const { return wallClock() - wall_; }
+
+double RenderClock::cpuSeconds() const { return cpuClock() - cpu_; }
+
+void RenderClock::exclude(const std::function<void()>& work) {
+  const double wall = wallClock(), cpu = cpuClock();
+  work();
+  wall_ += wallClock() - wall;
+  cpu_ += cpuClock() - cpu;
+}
+
+RoundsResult runRounds(const RenderRequest& request, const RenderClock& clock, int groups,
+                       const RoundsPlan& plan, const std::function<void(int, long long)>& work) {
   RoundsResult result;
-  const double startWall = wallClock(), startCpu = cpuClock();
+  const double start = clock.wallSeconds();
+  const bool timed = plan.seconds > 0;
   const auto stopped = [&] { return request.stop && request.stop->load(); };
+  // A time is reached where one more round would end further from it than we are now.
+  const auto reached = [&](double limit) {
+    const double elapsed = clock.wallSeconds();
+    const double aRound = (elapsed - start) / static_cast<double>(result.rounds);
+    return elapsed + aRound / 2 > limit;
+  };
+  std::size_t mark = 0;
   while (plan.rounds == 0 || result.rounds < plan.rounds) {
     if (stopped()) {
       result.interrupted = true;
       break;
     }
-    const double elapsed = wallClock() - startWall;
-    if (plan.seconds > 0 && result.rounds > 0) {
-      // Another round is begun if it will end nearer to the limit than we are now.
-      const double aRound = elapsed / static_cast<double>(result.rounds);
-      if (elapsed + aRound / 2 > plan.seconds) break;
-    }
+    if (timed && result.rounds > 0 && reached(plan.seconds)) break;
     parallelFor(request.threads, groups, [&](int group) { work(group, result.rounds); });
     ++result.rounds;
     if (request.progress) {
-      const double now = wallClock() - startWall;
+      const double now = clock.wallSeconds();
       const double done = static_cast<double>(result.rounds);
       const double fraction =
           plan.rounds > 0 ? done / static_cast<double>(plan.rounds) : now / plan.seconds;
-      request.progress({std::min(fraction, 1.0), now, done * plan.unitsPerRound / now, plan.unit});
+      request.progress(
+          {std::min(fraction, 1.0), now, done * plan.unitsPerRound / (now - start), plan.unit});
     }
+    const auto passed = [&] {
+      return timed ? reached(plan.marks[mark])
+                   : static_cast<double>(result.rounds) >= plan.marks[mark];
+    };
+    for (; mark < plan.marks.size() && passed(); ++mark) plan.atMark(mark, result);
   }
-  result.wallSeconds = wallClock() - startWall;
-  result.cpuSeconds = cpuClock() - startCpu;
+  // A mark at the limit itself may not have been seen to be passed.
+  if (!result.interrupted)
+    for (; mark < plan.marks.size(); ++mark) plan.atMark(mark, result);
   return result;
 }
 

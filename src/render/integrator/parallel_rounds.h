@@ -12,23 +12,41 @@ namespace h2mc {
 // so the number depends on the film's size (memory) and on nothing else.
 int groupCount(const FilmSettings& film);
 
+// The time that a render takes, less what does not belong to it.
+class RenderClock {
+ public:
+  RenderClock();  // starts it
+  double wallSeconds() const;
+  double cpuSeconds() const;
+  // Calls work() without counting its time.
+  void exclude(const std::function<void()>& work);
+
+ private:
+  double wall_, cpu_;  // when it would have been started without the exclusions
+};
+
 struct RoundsResult {
   long long rounds = 0;  // completed
-  double wallSeconds = 0, cpuSeconds = 0;
   bool interrupted = false;
 };
 
 struct RoundsPlan {
   long long rounds = 0;  // 0: until the time is up
-  double seconds = 0;    // 0: until the rounds are done
+  double seconds = 0;    // on the clock; 0: until the rounds are done
   double unitsPerRound = 1;
   std::string unit;
+  // Ascending, in rounds or, where the plan is a time, in seconds; atMark is called once for each that
+  // is reached, in order. It may exclude its time from the clock.
+  std::vector<double> marks;
+  std::function<void(std::size_t mark, const RoundsResult&)> atMark;
 };
 
 // Calls work(group, round) for all groups of a round in parallel, round after round, until the plan
 // is fulfilled or the request's stop flag is set. A started round is always completed: all groups
 // have done the same number of rounds when it returns.
-RoundsResult runRounds(const RenderRequest& request, int groups, const RoundsPlan& plan,
+// The clock may have run before: its time counts.
+RoundsResult runRounds(const RenderRequest& request, const RenderClock& clock, int groups,
+                       const RoundsPlan& plan,
                        const std::function<void(int group, long long round)>& work);
 
 // Seconds since some fixed point, and of processor time this process has used.

@@ -14,18 +14,54 @@ float positionIn(int pixel, int size, Random& random) {
                   (static_cast<float>(pixel) + random.uniform()) / static_cast<float>(size));
 }
 
+struct Group {
+  Film film;
+  std::unique_ptr<PixelSampler> sampler;
+  SampleTally tally;
+};
+
+// What the groups have so far; leaves them as they are.
+RenderResult resultOf(const Scene& scene, const std::vector<Group>& work, const RenderClock& clock,
+                      const RoundsResult& rounds) {
+  RenderResult result;
+  result.wallSeconds = clock.wallSeconds();
+  result.cpuSeconds = clock.cpuSeconds();
+  result.interrupted = rounds.interrupted;
+  SampleTally total;
+  Film film(scene.film);
+  for (const Group& group : work) {
+    total.luminance += group.tally.luminance;
+    total.squares += group.tally.squares;
+    total.samples += group.tally.samples;
+    total.notFinite += group.tally.notFinite;
+    film.merge(group.film);
+  }
+  const double n = static_cast<double>(total.samples);
+  result.image = film.develop(n > 0 ? 1 / n : 0);
+  result.samples = total.samples;
+  result.sampleUnit = "samples";
+  if (n > 0) {
+    result.meanLuminance = total.luminance / n;
+    result.meanLuminanceError = std::sqrt(
+        std::max(0.0, total.squares / n - result.meanLuminance * result.meanLuminance) / n);
+  }
+  result.statistics = {{"samples", total.samples},
+                       {"samples per pixel", rounds.rounds},
+                       {"samples per second", n / std::max(result.wallSeconds, 1e-9)},
+                       {"not finite", total.notFinite},
+                       {"mean luminance", result.meanLuminance},
+                       {"mean luminance standard error", result.meanLuminanceError}};
+  return result;
+}
+
 }  // namespace
 
 RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
                            int defaultSamplesPerPixel,
                            const std::function<std::unique_ptr<PixelSampler>()>& makeSampler) {
+  RenderClock clock;
   const int width = scene.film.width, height = scene.film.height;
   const int groups = groupCount(scene.film);
-  struct Group {
-    Film film;
-    std::unique_ptr<PixelSampler> sampler;
-    SampleTally tally;
-  };
   std::vector<Group> work;
   work.reserve(static_cast<std::size_t>(groups));
   for (int i = 0; i < groups; ++i) work.push_back({Film(scene.film), makeSampler(), {}});
@@ -37,53 +73,31 @@ RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
   if (plan.seconds <= 0 && plan.rounds == 0) plan.rounds = defaultSamplesPerPixel;
   plan.unitsPerRound = static_cast<double>(width) * height;
   plan.unit = "samples";
+  plan.marks = request.marks;
+  plan.atMark = [&](std::size_t mark, const RoundsResult& rounds) {
+    clock.exclude([&] { request.atMark(mark, resultOf(scene, work, clock, rounds)); });
+  };
 
-  const RoundsResult rounds = runRounds(request, groups, plan, [&](int index, long long round) {
-    Group& group = work[static_cast<std::size_t>(index)];
-    SampleTally& tally = group.tally;
-    for (int y = index; y < height; y += groups) {
-      for (int x = 0; x < width; ++x) {
-        const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width) +
-                           static_cast<std::uint64_t>(x);
-        Random random(request.seed, pixel, static_cast<std::uint64_t>(round));
-        const float filmX = positionIn(x, width, random), filmY = positionIn(y, height, random);
-        const double added = group.sampler->sample(scene, random, filmX, filmY, group.film, tally);
-        tally.luminance += added;
-        tally.squares += added * added;
-        ++tally.samples;
-      }
-    }
-  });
+  const RoundsResult rounds =
+      runRounds(request, clock, groups, plan, [&](int index, long long round) {
+        Group& group = work[static_cast<std::size_t>(index)];
+        SampleTally& tally = group.tally;
+        for (int y = index; y < height; y += groups) {
+          for (int x = 0; x < width; ++x) {
+            const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width) +
+                               static_cast<std::uint64_t>(x);
+            Random random(request.seed, pixel, static_cast<std::uint64_t>(round));
+            const float filmX = positionIn(x, width, random), filmY = positionIn(y, height, random);
+            const double added =
+                group.sampler->sample(scene, random, filmX, filmY, group.film, tally);
+            tally.luminance += added;
+            tally.squares += added * added;
+            ++tally.samples;
+          }
+        }
+      });
 
-  SampleTally total;
-  for (const Group& group : work) {
-    total.luminance += group.tally.luminance;
-    total.squares += group.tally.squares;
-    total.samples += group.tally.samples;
-    total.notFinite += group.tally.notFinite;
-  }
-  for (std::size_t i = 1; i < work.size(); ++i) work[0].film.merge(work[i].film);
-
-  RenderResult result;
-  const double n = static_cast<double>(total.samples);
-  result.image = work[0].film.develop(n > 0 ? 1 / n : 0);
-  result.wallSeconds = rounds.wallSeconds;
-  result.cpuSeconds = rounds.cpuSeconds;
-  result.interrupted = rounds.interrupted;
-  result.samples = total.samples;
-  result.sampleUnit = "samples";
-  if (n > 0) {
-    result.meanLuminance = total.luminance / n;
-    result.meanLuminanceError = std::sqrt(
-        std::max(0.0, total.squares / n - result.meanLuminance * result.meanLuminance) / n);
-  }
-  result.statistics = {{"samples", total.samples},
-                       {"samples per pixel", rounds.rounds},
-                       {"samples per second", n / std::max(rounds.wallSeconds, 1e-9)},
-                       {"not finite", total.notFinite},
-                       {"mean luminance", result.meanLuminance},
-                       {"mean luminance standard error", result.meanLuminanceError}};
-  return result;
+  return resultOf(scene, work, clock, rounds);
 }
 
 }  // namespace h2mc
