@@ -17,7 +17,7 @@ namespace h2mc {
 
 enum ExitCode {
   kSuccess = 0,
-  kCheckFailed = 1,  // diff: the images differ by more than the tolerance
+  kCheckFailed = 1,  // diff, gradcheck: more than the tolerance
   kBadInput = 2,     // options, scene, images, paths
   kFailed = 3,       // anything else: memory, disk, a mistake in the program
   kInterrupted = 130,
@@ -36,11 +36,12 @@ void addRenderCommand(CLI::App& app, Run& run);
 void addInfoCommand(CLI::App& app, Run& run);
 void addListCommand(CLI::App& app, Run& run);
 void addDiffCommand(CLI::App& app, Run& run);
+void addGradcheckCommand(CLI::App& app, Run& run);
 
 // The tables of all integrators, for the scene reader.
 std::vector<IntegratorPlugin> integratorPlugins();
 
-// What `-D name=value` means to render and info. Throws InputError.
+// What `-D name=value` means to the commands that read a scene. Throws InputError.
 std::map<std::string, std::string> parseDefines(const std::vector<std::string>& definitions);
 
 }  // namespace h2mc

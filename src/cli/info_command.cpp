@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "cli/statistics_table.h"
+#include "render/scene/kinds.h"
 #include "render/scene/scene.h"
 #include "render/scene/scene_reader.h"
 
@@ -17,42 +18,6 @@ struct InfoOptions {
   std::string scene;
   std::vector<std::string> defines;
 };
-
-template <class... F>
-struct Overloaded : F... {
-  using F::operator()...;
-};
-template <class... F>
-Overloaded(F...) -> Overloaded<F...>;  // clang 14 needs to be told
-
-const char* kindOf(const Shape& shape) {
-  return std::visit(
-      Overloaded{[](const TriangleMesh&) { return "triangle mesh"; },
-                 [](const Sphere&) { return "sphere"; }, [](const Disk&) { return "disk"; }},
-      shape.geometry);
-}
-
-const char* kindOf(const Light& light) {
-  return std::visit(
-      Overloaded{[](const AreaLight&) { return "area"; }, [](const PointLight&) { return "point"; },
-                 [](const SpotLight&) { return "spot"; },
-                 [](const DirectionalLight&) { return "directional"; },
-                 [](const ConstantLight&) { return "constant"; },
-                 [](const EnvmapLight&) { return "envmap"; }},
-      light);
-}
-
-const char* kindOf(const Bsdf& bsdf) {
-  return std::visit(
-      Overloaded{[](const Diffuse&) { return "diffuse"; }, [](const Phong&) { return "phong"; },
-                 [](const RoughConductor&) { return "roughconductor"; },
-                 [](const RoughDielectric&) { return "roughdielectric"; },
-                 [](const Conductor&) { return "conductor"; },
-                 [](const Dielectric&) { return "dielectric"; },
-                 [](const Plastic&) { return "plastic"; },
-                 [](const RoughPlastic&) { return "roughplastic"; }},
-      bsdf);
-}
 
 const char* nameOf(Filter::Kind kind) {
   switch (kind) {

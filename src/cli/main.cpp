@@ -56,16 +56,17 @@ int run(int argc, char** argv) {
   app.failure_message(CLI::FailureMessage::simple);
   app.footer(
       "`h2mc COMMAND --help` explains a command's options.\n"
-      "Exit codes: 0 done, 1 a check failed (diff --tolerance), 2 wrong input, 3 any other "
-      "failure,\n"
+      "Exit codes: 0 done, 1 a check failed (diff --tolerance, gradcheck), 2 wrong input, 3 any "
+      "other failure,\n"
       "130 interrupted.");
   Run command;
   addRenderCommand(app, command);
   addInfoCommand(app, command);
   addListCommand(app, command);
   addDiffCommand(app, command);
+  addGradcheckCommand(app, command);
 
-  const Names commands{"render", "info", "list", "diff"};
+  const Names commands{"render", "info", "list", "diff", "gradcheck"};
   const std::string first = argc > 1 ? argv[1] : "";
   const bool known = std::find(commands.begin(), commands.end(), first) != commands.end();
   if (!first.empty() && first[0] != '-' && !known)

@@ -1,0 +1,122 @@
+#include "mcmc/gradcheck/form_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/core/random.h"
+#include "render/path/replay_double.h"
+
+namespace h2mc {
+namespace {
+
+// Neighbouring paths that tell rounding from mistakes, and how far they lie away: this share of the
+// length on which the target varies, but some units of the coordinates' last place.
+constexpr int kNeighbours = 16;
+constexpr double kDistance = 0x1p-6, kShortest = 0x1p-22;
+constexpr std::uint64_t kStream = 0x677267;
+
+// Sums over the neighbours of float minus double, entry by entry.
+struct Scatter {
+  explicit Scatter(std::size_t entries) : sum(entries), squares(entries) {}
+  std::vector<double> sum, squares;
+
+  void add(const std::vector<double>& a, const std::vector<double>& b) {
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+      const double e = a[k] - b[k];
+      sum[k] += e;
+      squares[k] += e * e;
+    }
+  }
+};
+
+double weightOf(std::size_t k, bool triangle) {
+  // Off the diagonal an entry stands twice in the matrix.
+  if (!triangle) return 1;
+  const auto row = static_cast<std::size_t>((std::sqrt(8.0 * static_cast<double>(k) + 1) - 1) / 2);
+  return k == row * (row + 3) / 2 ? 1 : 2;
+}
+
+double norm(const std::vector<double>& a, bool triangle) {
+  double sum = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += weightOf(k, triangle) * a[k] * a[k];
+  return std::sqrt(sum);
+}
+
+double distance(const std::vector<double>& a, const std::vector<double>& b, bool triangle) {
+  std::vector<double> difference(a.size());
+  for (std::size_t k = 0; k < a.size(); ++k) difference[k] = a[k] - b[k];
+  return norm(difference, triangle);
+}
+
+// Whether the mean of `count` differences is no more than `allowed` and three standard errors.
+bool isRounding(const Scatter& scatter, int count, double allowed, bool triangle) {
+  double variance = 0;
+  std::vector<double> mean(scatter.sum.size());
+  for (std::size_t k = 0; k < mean.size(); ++k) {
+    mean[k] = scatter.sum[k] / count;
+    const double spread = scatter.squares[k] / count - mean[k] * mean[k];
+    variance += weightOf(k, triangle) * std::max(spread, 0.0) / (count - 1);
+  }
+  return norm(mean, triangle) <= allowed + 3 * std::sqrt(variance);
+}
+
+}  // namespace
+
+FormCheck checkForm(const Scene& scene, const Path& path, const ad::DerivativeValues& exact,
+                    const DerivativeForm& form, const GradcheckSettings& settings) {
+  FormCheck result;
+  ad::DerivativeValues found;
+  if (!form.differentiate(scene, path, found)) return result;
+  if (!found.finite()) {
+    result.verdict = FormVerdict::kNotFinite;
+    return result;
+  }
+  const double gradientScale = std::max(1.0, norm(exact.gradient, false));
+  const double hessianScale = std::max(1.0, norm(exact.hessian, true));
+  result.value = static_cast<float>(std::abs(found.value - exact.value));
+  result.gradient =
+      static_cast<float>(distance(found.gradient, exact.gradient, false) / gradientScale);
+  result.hessian = static_cast<float>(distance(found.hessian, exact.hessian, true) / hessianScale);
+  const double tolerance = settings.floatTolerance;
+  const auto within = [&](double error) { return error <= tolerance; };
+  if (within(result.value) && within(result.gradient) && within(result.hessian)) {
+    result.verdict = FormVerdict::kAgrees;
+    return result;
+  }
+
+  const int n = path.technique.dimension();
+  const std::vector<double> scales = ad::coordinateScales(exact);
+  Scatter value(1), gradient(exact.gradient.size()), hessian(exact.hessian.size());
+  Random random(settings.seed, kStream, 0);
+  Path near = path;
+  int count = 0;
+  for (int k = 0; k < kNeighbours; ++k) {
+    for (int i = 0; i < n; ++i) {
+      const auto index = static_cast<std::size_t>(i);
+      const double reach = std::max(kShortest, kDistance / scales[index]);
+      const double moved = path.sample.u[index] + reach * (2 * random.uniformDouble() - 1);
+      near.sample.u[index] = std::clamp(static_cast<float>(moved), 0.0f, 0x1.fffffep-1f);
+    }
+    // Its topology may be another: it is a path all the same.
+    if (!tracePath(scene, near)) continue;
+    double u[2 * kMaxPathLength];
+    std::copy_n(near.sample.u.begin(), n, u);
+    const ad::DerivativeValues there =
+        settings.exact ? settings.exact(scene, near, u) : differentiateInDouble(scene, near, u);
+    ad::DerivativeValues inFloat;
+    if (!there.finite() || !form.differentiate(scene, near, inFloat) || !inFloat.finite()) continue;
+    ++count;
+    value.add({inFloat.value}, {there.value});
+    gradient.add(inFloat.gradient, there.gradient);
+    hessian.add(inFloat.hessian, there.hessian);
+  }
+  const bool rounding =
+      count >= kNeighbours / 2 &&
+      (within(result.value) || isRounding(value, count, tolerance, false)) &&
+      (within(result.gradient) || isRounding(gradient, count, tolerance * gradientScale, false)) &&
+      (within(result.hessian) || isRounding(hessian, count, tolerance * hessianScale, true));
+  result.verdict = rounding ? FormVerdict::kRounding : FormVerdict::kWrong;
+  return result;
+}
+
+}  // namespace h2mc

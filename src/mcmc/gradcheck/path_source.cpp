@@ -1,0 +1,143 @@
+#include "mcmc/gradcheck/path_source.h"
+
+#include <algorithm>
+
+#include "mcmc/bootstrap.h"
+#include "mcmc/chain.h"
+#include "mcmc/h2mc.h"
+#include "mcmc/metropolis_integrator.h"
+#include "render/integrator/parallel_rounds.h"
+#include "render/path/bidirectional.h"
+
+namespace h2mc {
+namespace {
+
+constexpr std::uint64_t kSampleStream = 0x677263, kStartStream = 0x677265, kChainStream = 0x677266;
+// Samples to look for rare techniques in, for each path wanted.
+constexpr int kSamplesPerPath = 40;
+constexpr long long kBootstrapSamples = 20000;
+constexpr int kChains = 32;
+// Mutations of a chain between the states that are kept.
+constexpr int kStride = 48;
+
+bool stopped(const std::atomic<bool>* stop) { return stop && stop->load(); }
+
+}  // namespace
+
+const char* nameOf(PathOrigin origin) {
+  switch (origin) {
+    case PathOrigin::kBidirectional:
+      return "bdpt";
+    case PathOrigin::kChain:
+      return "chain";
+    case PathOrigin::kGiven:
+      return "given";
+  }
+  return "?";
+}
+
+std::vector<SampledPath> sampleBidirectional(const Scene& scene, int maxLength, int count,
+                                             std::uint64_t seed) {
+  const TechniqueDistribution techniques(1, maxLength);
+  const auto kinds = static_cast<std::size_t>(techniques.size());
+  const std::size_t share = (static_cast<std::size_t>(count) + kinds - 1) / kinds;
+  std::vector<std::vector<SampledPath>> found(kinds), spare(kinds);
+  BidirectionalSampler sampler(maxLength);
+  std::vector<Technique> connections;
+  std::size_t total = 0;
+  for (long long i = 0; i < static_cast<long long>(kSamplesPerPath) * count; ++i) {
+    if (total == share * kinds) break;
+    Random random(seed, kSampleStream, static_cast<std::uint64_t>(i));
+    connections.clear();
+    sampler.sample(scene, random, -1, -1, 1, [&](const BidirectionalSampler::Connection& c) {
+      connections.push_back(c.technique);
+    });
+    // One wanted path and one to fill up with from a sample: its connections resemble one another.
+    std::size_t fewest = share;
+    const Technique* wanted = nullptr;
+    for (const Technique& t : connections) {
+      const std::size_t have = found[static_cast<std::size_t>(techniques.index(t))].size();
+      if (have < fewest) fewest = have, wanted = &t;
+    }
+    const auto keep = [&](const Technique& t) {
+      return SampledPath{PathOrigin::kBidirectional, static_cast<std::uint64_t>(i), t,
+                         sampler.primarySample(t)};
+    };
+    if (wanted) {
+      found[static_cast<std::size_t>(techniques.index(*wanted))].push_back(keep(*wanted));
+      ++total;
+    }
+    if (connections.empty()) continue;
+    const auto pick =
+        static_cast<std::size_t>(random.uniform() * static_cast<float>(connections.size()));
+    const Technique& other = connections[pick];
+    std::vector<SampledPath>& more = spare[static_cast<std::size_t>(techniques.index(other))];
+    if (!(wanted && *wanted == other) && more.size() < static_cast<std::size_t>(count))
+      more.push_back(keep(other));
+  }
+  std::vector<SampledPath> paths;
+  for (const auto& of : found) paths.insert(paths.end(), of.begin(), of.end());
+  const auto wanted = static_cast<std::size_t>(count);
+  for (std::size_t k = 0; paths.size() < wanted; ++k) {
+    bool any = false;
+    for (const auto& of : spare) {
+      if (k >= of.size() || paths.size() >= wanted) continue;
+      paths.push_back(of[k]);
+      any = true;
+    }
+    if (!any) break;
+  }
+  if (paths.size() > wanted) {
+    // Every technique is the same number too many.
+    std::vector<SampledPath> fewer;
+    for (std::size_t k = 0; fewer.size() < wanted; ++k)
+      for (const auto& of : found)
+        if (k < of.size() && fewer.size() < wanted) fewer.push_back(of[k]);
+    paths = std::move(fewer);
+  }
+  return paths;
+}
+
+std::vector<SampledPath> sampleChains(const Scene& scene, int maxLength, int count,
+                                      std::uint64_t seed, int threads,
+                                      const std::atomic<bool>* stop) {
+  if (count <= 0) return {};
+  const Bootstrap bootstrap(scene, 1, maxLength, kBootstrapSamples, seed, threads);
+  if (!(bootstrap.luminance().mean() > 0)) return {};
+  const SceneTarget target(scene, maxLength);
+  const MetropolisMethod method = h2mcMethod();
+  const OptionSet options(method.plugin);
+  const int chains = std::min(kChains, count);
+  std::vector<std::vector<SampledPath>> found(static_cast<std::size_t>(chains));
+  parallelFor(threads, chains, [&](int c) {
+    KernelMixture kernels;
+    kernels.large = std::make_unique<BidirectionalLargeStep>(target, 1);
+    kernels.largeProbability = options.number("largeStepProbability");
+    kernels.small = method.smallSteps(target, options);
+    ChainStatistics statistics(kernels.kinds(), maxLength);
+    MutationContext context;
+    FilmSettings settings = scene.film;  // nobody looks at the picture
+    settings.width = settings.height = 1;
+    Film film(settings);
+    Path start(maxLength);
+    Random random(seed, kStartStream, static_cast<std::uint64_t>(c));
+    bootstrap.drawStart(random, start);
+    Chain chain(target, start, Random(seed, kChainStream, static_cast<std::uint64_t>(c)));
+    const int share = count / chains + (c < count % chains);
+    for (int k = 1; k <= share && !stopped(stop); ++k) {
+      // A little longer where it has not moved: the same path twice says nothing new.
+      const PrimarySample before = chain.path().sample;
+      for (int tries = 0; tries < 4 && (tries == 0 || chain.path().sample.u == before.u); ++tries)
+        for (int i = 0; i < kStride; ++i) chain.step(kernels, film, statistics, context);
+      found[static_cast<std::size_t>(c)].push_back(
+          {PathOrigin::kChain,
+           (static_cast<std::uint64_t>(c) << 32) + static_cast<std::uint64_t>(k),
+           chain.path().technique, chain.path().sample});
+    }
+  });
+  std::vector<SampledPath> paths;
+  for (const auto& of : found) paths.insert(paths.end(), of.begin(), of.end());
+  return paths;
+}
+
+}  // namespace h2mc

@@ -1,0 +1,37 @@
+// Where the paths come from whose derivatives are checked.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "render/path/primary_sample.h"
+#include "render/scene/scene.h"
+
+namespace h2mc {
+
+enum class PathOrigin : std::uint8_t { kBidirectional, kChain, kGiven };
+const char* nameOf(PathOrigin origin);
+
+// A path with a positive target, as tracePath traces it again.
+struct SampledPath {
+  PathOrigin origin = PathOrigin::kGiven;
+  // Bidirectional: the sample it is a connection of. Chain: chain * 2^32 + number of the state.
+  std::uint64_t index = 0;
+  Technique technique;
+  PrimarySample sample;
+};
+
+// Up to `count` connections of bidirectional samples, whatever they contribute: as evenly spread over
+// the techniques of 1 .. maxLength edges as these are found. The same paths for the same seed.
+std::vector<SampledPath> sampleBidirectional(const Scene& scene, int maxLength, int count,
+                                             std::uint64_t seed);
+
+// Up to `count` states of h2mc's chains, with the method's defaults: in proportion to the target, in
+// the narrow places where chains dwell. None where no light arrives. The same paths for the same seed,
+// whatever the number of threads. Ends early when `stop` is set.
+std::vector<SampledPath> sampleChains(const Scene& scene, int maxLength, int count,
+                                      std::uint64_t seed, int threads,
+                                      const std::atomic<bool>* stop);
+
+}  // namespace h2mc
