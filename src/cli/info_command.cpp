@@ -53,6 +53,9 @@ void printGeometry(const Scene& scene) {
     if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
       triangles += static_cast<long long>(mesh->triangles.size());
       vertices += static_cast<long long>(mesh->positions.size());
+    } else if (const auto* moving = std::get_if<MovingMesh>(&shape.geometry)) {
+      triangles += static_cast<long long>(moving->triangles.size());
+      vertices += static_cast<long long>(moving->vertices());
     }
   }
   line("shapes", fmt::format("{} ({})", withSeparators(static_cast<long long>(scene.shapes.size())),
@@ -95,6 +98,33 @@ void printCamera(const Scene& scene) {
                            nameOf(film.filter.kind), film.filter.radius));
 }
 
+void printMotion(const Scene& scene) {
+  if (!scene.moving) {
+    line("moving", "no");
+    return;
+  }
+  // Shapes by the number of steps into which their motion is cut.
+  std::map<int, long long> steps;
+  long long shapes = 0;
+  for (const Shape& shape : scene.shapes) {
+    if (!shape.moves()) continue;
+    ++shapes;
+    ++steps[shape.motionSegments()];
+  }
+  std::string content;
+  if (shapes > 0) {
+    content = fmt::format("{} {} (", withSeparators(shapes), shapes == 1 ? "shape" : "shapes");
+    for (const auto& [segments, count] : steps) {
+      if (content.back() != '(') content += ", ";
+      content += fmt::format("{} in {} {}", withSeparators(count), segments,
+                             segments == 1 ? "step" : "steps");
+    }
+    content += ")";
+  }
+  if (scene.camera.moves()) content += content.empty() ? "the camera" : ", the camera";
+  line("moving", content);
+}
+
 void printIntegrator(const OptionSet& integrator) {
   if (integrator.integrator().empty()) {
     line("integrator", "not given");
@@ -119,7 +149,7 @@ int info(const InfoOptions& options) {
   printMaterials(scene);
   printLights(scene);
   printCamera(scene);
-  line("moving", "no");  // shapes have one place each
+  printMotion(scene);
   printIntegrator(scene.integrator);
   for (const std::string& note : scene.notes) line("note", note);
   return kSuccess;

@@ -208,10 +208,10 @@ std::vector<Mistake> mistakes() {
        shape("<transform name=\"toWorld\"><lookat origin=\"0,0,0\" target=\"0,1,0\" "
              "up=\"0,1,0\"/></transform>"),
        {"up is parallel"}},
-      {"Motion",
-       shape("<animation name=\"toWorld\"><transform time=\"0\"/><transform time=\"1\">"
+      {"TwoKeyframesAtOnce",
+       shape("<animation name=\"toWorld\"><transform time=\"1\"/><transform time=\"1\">"
              "<translate x=\"1\"/></transform></animation>"),
-       {"motion is not supported yet"}},
+       {"a second keyframe at the same time"}},
       {"NoCamera",
        head + kLight + kSphere + "</scene>",
        {"scene.xml:1:2: error: the scene has no camera", "<sensor type=\"perspective\">"}},

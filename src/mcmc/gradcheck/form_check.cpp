@@ -84,7 +84,9 @@ FormCheck checkForm(const Scene& scene, const Path& path, const ad::DerivativeVa
     return result;
   }
 
-  const int n = path.technique.dimension();
+  const int n = path.dimension(), own = path.technique.dimension();
+  double here[kMostCoordinates];
+  pathCoordinates(path, here);
   const std::vector<double> scales = ad::coordinateScales(exact);
   Scatter value(1), gradient(exact.gradient.size()), hessian(exact.hessian.size());
   Random random(settings.seed, kStream, 0);
@@ -94,13 +96,14 @@ FormCheck checkForm(const Scene& scene, const Path& path, const ad::DerivativeVa
     for (int i = 0; i < n; ++i) {
       const auto index = static_cast<std::size_t>(i);
       const double reach = std::max(kShortest, kDistance / scales[index]);
-      const double moved = path.sample.u[index] + reach * (2 * random.uniformDouble() - 1);
-      near.sample.u[index] = std::clamp(static_cast<float>(moved), 0.0f, 0x1.fffffep-1f);
+      const double moved = here[index] + reach * (2 * random.uniformDouble() - 1);
+      (i < own ? near.sample.u[index] : near.sample.time) =
+          std::clamp(static_cast<float>(moved), 0.0f, 0x1.fffffep-1f);
     }
     // Its topology may be another: it is a path all the same.
-    if (!tracePath(scene, near)) continue;
-    double u[2 * kMaxPathLength];
-    std::copy_n(near.sample.u.begin(), n, u);
+    if (!tracePath(scene, near) || near.moving != path.moving) continue;
+    double u[kMostCoordinates];
+    pathCoordinates(near, u);
     const ad::DerivativeValues there =
         settings.exact ? settings.exact(scene, near, u) : differentiateInDouble(scene, near, u);
     ad::DerivativeValues inFloat;

@@ -13,14 +13,10 @@ namespace {
 // Paths that one task checks: some milliseconds' worth.
 constexpr int kBlock = 16;
 
-void coordinates(const Path& path, double* u) {
-  std::copy_n(path.sample.u.begin(), path.technique.dimension(), u);
-}
-
 ad::DerivativeValues exactDerivative(const Scene& scene, const Path& path,
                                      const GradcheckSettings& settings) {
-  double u[2 * kMaxPathLength];
-  coordinates(path, u);
+  double u[kMostCoordinates];
+  pathCoordinates(path, u);
   return settings.exact ? settings.exact(scene, path, u) : differentiateInDouble(scene, path, u);
 }
 
@@ -48,14 +44,17 @@ PathTraits traitsOf(const Scene& scene, const Path& path) {
   const int light = s == 0 && path.escaped ? scene.environment : path.lightIndex;
   if (light >= 0)
     traits.light = static_cast<int>(scene.lights[static_cast<std::size_t>(light)].index());
+  traits.moving = path.moving;
   return traits;
 }
 
 std::vector<double> largestSteps(const Path& path) {
   constexpr double kLargest = 1.0 / 16;
-  std::vector<double> steps(static_cast<std::size_t>(path.technique.dimension()), kLargest);
+  std::vector<double> steps(static_cast<std::size_t>(path.dimension()), kLargest);
+  double coordinates[kMostCoordinates];
+  pathCoordinates(path, coordinates);
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    const double u = path.sample.u[i];
+    const double u = coordinates[i];
     if (!((path.wraps >> i) & 1)) steps[i] = std::min(kLargest, 0.99 * std::min(u, 1 - u));
   }
   return steps;
@@ -83,10 +82,10 @@ PathCheck checkPath(const Scene& scene, const SampledPath& sampled,
   result.traits = traitsOf(scene, path);
   const ad::DerivativeValues exact = exactDerivative(scene, path, settings);
   const ad::PlainFunction f = [&](const double* u) { return replayInDouble(scene, path, u); };
-  double u[2 * kMaxPathLength];
-  coordinates(path, u);
-  ad::DerivativeCheck check = ad::checkDerivative(
-      f, u, path.technique.dimension(), largestSteps(path).data(), exact, settings.tolerance);
+  double u[kMostCoordinates];
+  pathCoordinates(path, u);
+  ad::DerivativeCheck check = ad::checkDerivative(f, u, path.dimension(), largestSteps(path).data(),
+                                                  exact, settings.tolerance);
   result.finite = check.finite;
   result.verdict = check.verdict();
   result.agree = check.agree;

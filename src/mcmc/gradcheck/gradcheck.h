@@ -62,7 +62,7 @@ struct FormCheck {
 struct PathTraits {
   std::uint32_t bsdfs = 0;  // kinds at the vertices that scatter, bits by index in bsdfKinds()
   int light = 0;            // kind, index in lightKinds()
-  bool moving = false;      // no scene has moving shapes yet
+  bool moving = false;      // it depends on time
 };
 PathTraits traitsOf(const Scene& scene, const Path& path);
 

@@ -236,8 +236,8 @@ json sweepOf(const Scene& scene, const SampledPath& sampled, const ad::Derivativ
   path.technique = sampled.technique;
   path.sample = sampled.sample;
   if (!tracePath(scene, path)) return nullptr;
-  double u[2 * kMaxPathLength];
-  std::copy_n(path.sample.u.begin(), path.technique.dimension(), u);
+  double u[kMostCoordinates];
+  pathCoordinates(path, u);
   const std::vector<double> largest = largestSteps(path);
   const double step = largest[static_cast<std::size_t>(row)];
   if (!(step > 0)) return nullptr;
@@ -245,7 +245,7 @@ json sweepOf(const Scene& scene, const SampledPath& sampled, const ad::Derivativ
   const ad::PlainFunction f = [&](const double* x) { return replayInDouble(scene, path, x); };
   json points = json::array();
   for (const ad::SweepPoint& p :
-       ad::sweepEntry(f, u, path.technique.dimension(), row, column, step, ratio, kSweepLevels))
+       ad::sweepEntry(f, u, path.dimension(), row, column, step, ratio, kSweepLevels))
     points.push_back({p.step, number(std::abs(p.quotient - worst->exact) / worst->scale),
                       number(std::abs(p.extrapolated - worst->exact) / worst->scale)});
   return {{"entry", column < 0 ? json({row}) : json({row, column})},

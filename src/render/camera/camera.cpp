@@ -5,10 +5,10 @@
 namespace h2mc {
 
 Camera::Camera(const Mat4& toWorld, float fov, FovAxis axis, float aspect) {
-  position_ = Vec3f(toWorld[3]);
-  forward_ = glm::normalize(Vec3f(toWorld[2]));
-  left_ = glm::normalize(Vec3f(toWorld[0]));
-  up_ = glm::normalize(Vec3f(toWorld[1]));
+  pose_.position = Vec3f(toWorld[3]);
+  pose_.forward = glm::normalize(Vec3f(toWorld[2]));
+  pose_.left = glm::normalize(Vec3f(toWorld[0]));
+  pose_.up = glm::normalize(Vec3f(toWorld[1]));
   const double tangent = std::tan(0.5 * double(fov) * std::numbers::pi / 180);
   double tanX = tangent;
   switch (axis) {
@@ -32,12 +32,17 @@ Camera::Camera(const Mat4& toWorld, float fov, FovAxis axis, float aspect) {
   filmArea_ = static_cast<float>(4 * tanX * tanX / aspect);
 }
 
-bool Camera::project(const Vec3f& direction, float& filmX, float& filmY) const {
-  if (!(dot(forward_, direction) > 0)) return false;
-  const Vec2f film = filmPosition(direction);
-  filmX = film.x;
-  filmY = film.y;
-  return film.x >= 0 && film.x < 1 && film.y >= 0 && film.y < 1;
+void Camera::follow(const Motion& motion) {
+  if (motion.moves()) motion_ = CameraMotion(motion);
+}
+
+bool Camera::project(const CameraPose<float>& pose, const Vec3f& direction, float& filmX,
+                     float& filmY) const {
+  const float z = dot(pose.forward, direction);
+  if (!(z > 0)) return false;
+  filmX = (dot(pose.left, direction) / z * (1 / tanX_) - 1) * -0.5f;
+  filmY = (dot(pose.up, direction) / z * (1 / tanY_) - 1) * -0.5f;
+  return filmX >= 0 && filmX < 1 && filmY >= 0 && filmY < 1;
 }
 
 }  // namespace h2mc

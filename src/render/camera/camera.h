@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "render/camera/camera_motion.h"
 #include "render/core/types.h"
 
 namespace h2mc {
@@ -17,19 +18,36 @@ class Camera {
   // Precondition: 0 < fov < 180, aspect > 0, toWorld invertible.
   Camera(const Mat4& toWorld, float fov, FovAxis axis, float aspect);
 
+  // Lets the camera move as `motion` says, if it moves; the rest stays as constructed.
+  void follow(const Motion& motion);
+  bool moves() const { return motion_.moves(); }
+
+  // Where it is: at rest, or at its motion's beginning; and at a moment `time` in [0, 1] of its motion
+  // (precondition: moves()).
+  template <class S>
+  CameraPose<S> pose() const {
+    return {Vec3<S>(pose_.position), Vec3<S>(pose_.left), Vec3<S>(pose_.up),
+            Vec3<S>(pose_.forward)};
+  }
+  template <class T>
+  CameraPose<T> poseAt(const T& time) const {
+    return motion_.at(time);
+  }
+  // The same whether it moves or not.
+  CameraPose<float> poseOf(float time) const { return moves() ? motion_.at(time) : pose_; }
+
   // The unit direction through a point of the film, (0,0) its upper left and (1,1) its lower right
   // corner.
-  template <class T>
-  Vec3<T> direction(const T& filmX, const T& filmY) const {
+  template <class P, class T>
+  Vec3<T> direction(const CameraPose<P>& pose, const T& filmX, const T& filmY) const {
     const T x = (filmX * Scalar<T>(-2) + Scalar<T>(1)) * Scalar<T>(tanX_);
     const T y = (filmY * Scalar<T>(-2) + Scalar<T>(1)) * Scalar<T>(tanY_);
-    return normalize(plain<T>(left_) * x + plain<T>(up_) * y + plain<T>(forward_));
+    return normalize(pose.left * x + pose.up * y + pose.forward);
   }
-
-  // Cosine between a unit direction and the optical axis.
+  // Of a camera at rest.
   template <class T>
-  T cosine(const Vec3<T>& direction) const {
-    return dot(plain<T>(forward_), direction);
+  Vec3<T> direction(const T& filmX, const T& filmY) const {
+    return direction(pose<Scalar<T>>(), filmX, filmY);
   }
 
   // Density per solid angle of direction(u, v) for (u, v) uniform on the film, 1 / (A cos^3) with A
@@ -41,26 +59,20 @@ class Camera {
   }
 
   // The film position that sees along `direction` (any length); false when it is behind or beside.
-  bool project(const Vec3f& direction, float& filmX, float& filmY) const;
-  // The same without the test, for derivatives. Precondition: in front of the camera.
-  template <class T>
-  Vec2<T> filmPosition(const Vec3<T>& direction) const {
-    using S = Scalar<T>;
-    const T z = dot(plain<T>(forward_), direction);
-    const T x = dot(plain<T>(left_), direction) / z * S(1 / tanX_);
-    const T y = dot(plain<T>(up_), direction) / z * S(1 / tanY_);
-    return {(x - S(1)) * S(-0.5), (y - S(1)) * S(-0.5)};
-  }
+  bool project(const CameraPose<float>& pose, const Vec3f& direction, float& filmX,
+               float& filmY) const;
 
-  const Vec3f& position() const { return position_; }
-  const Vec3f& forward() const { return forward_; }
+  // At rest, or at its motion's beginning.
+  const Vec3f& position() const { return pose_.position; }
+  const Vec3f& forward() const { return pose_.forward; }
   float filmArea() const { return filmArea_; }
 
-  float nearClip = 1e-2f, farClip = 1e4f;  // distances along the optical axis
-  float shutterOpen = 0, shutterClose = 0;
+  float nearClip = 1e-2f, farClip = 1e4f;   // distances along the optical axis
+  float shutterOpen = 0, shutterClose = 0;  // in the unit of keyframes' times
 
  private:
-  Vec3f position_{0}, left_{1, 0, 0}, up_{0, 1, 0}, forward_{0, 0, 1};
+  CameraPose<float> pose_{Vec3f(0), {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  CameraMotion motion_;
   float tanX_ = 1, tanY_ = 1, filmArea_ = 4;
 };
 

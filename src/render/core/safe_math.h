@@ -40,6 +40,24 @@ Vec3<T> lift(const Vec3<Scalar<T>>& a) {
   return {T(a.x), T(a.y), T(a.z)};
 }
 
+// The same for a vector that may be of T already.
+template <class T, class P>
+Vec3<T> liftFrom(const Vec3<P>& a) {
+  if constexpr (std::is_same_v<P, T>)
+    return a;
+  else
+    return lift<T>(a);
+}
+
+// a s + b t for duals a, b and weights that are plain numbers or duals.
+template <class T, class P>
+T weighted2(const T& a, const P& s, const T& b, const P& t) {
+  if constexpr (ad::isDual<P>)
+    return dot2(a, s, b, t);
+  else
+    return linear2(a, s, b, t);
+}
+
 // The derivatives of a with another value: a more exact one.
 template <class T>
 Vec3<T> withValue(Vec3<T> a, const Vec3<Scalar<T>>& v) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -42,6 +43,15 @@ struct MeshOptions {
 // the mesh is to be flat. Triangles without area are dropped and counted; the result may be empty.
 // Throws MeshError when the transformed numbers are not finite.
 TriangleMesh finishMesh(MeshData data, const MeshOptions& options, std::size_t& dropped);
+
+// One mesh of several states of the same triangles at equally spaced moments, at least 2. Topology and
+// texture coordinates are the first's. Precondition: as many vertices and normals in all.
+MovingMesh joinSteps(std::vector<TriangleMesh> steps);
+
+// As finishMesh, with a transform for each of the equally spaced moments instead of options.toWorld.
+// Triangles are dropped that have no area at any of them. Precondition: at least 2.
+MovingMesh finishMovingMesh(const MeshData& data, const MeshOptions& options,
+                            std::span<const Mat4> toWorld, std::size_t& dropped);
 
 // The square [-1, 1]^2 in z = 0 with its normal along +z.
 TriangleMesh makeRectangle(const Mat4& toWorld, bool flipNormals);

@@ -47,41 +47,48 @@ std::vector<Vec3f> computeNormals(const std::vector<Vec3f>& positions,
   return normals;
 }
 
-bool hasArea(const TriangleMesh& mesh, const glm::uvec3& t) {
+bool hasArea(const Vec3f* positions, const glm::uvec3& t) {
   if (t.x == t.y || t.y == t.z || t.z == t.x) return false;
-  const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+  const glm::dvec3 a(positions[t.x]), b(positions[t.y]), c(positions[t.z]);
   const double longest =
       std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
   return glm::length(glm::cross(b - a, c - a)) > 1e-9 * longest && longest > 1e-30;
 }
 
-// Leaves out the vertices that no triangle uses: the scene's bounds should not see them.
-void compact(TriangleMesh& mesh) {
+// Leaves out the triangles that have no area at any of `steps` moments, whose vertices stand one after
+// the other, and returns how many; then the vertices that no triangle uses: the scene's bounds should
+// not see them. For TriangleMesh and MovingMesh.
+template <class Mesh>
+std::size_t compact(Mesh& mesh, std::size_t steps) {
+  const std::size_t vertices = mesh.positions.size() / steps;
+  const std::size_t dropped = std::erase_if(mesh.triangles, [&](const glm::uvec3& t) {
+    for (std::size_t k = 0; k < steps; ++k)
+      if (hasArea(mesh.positions.data() + k * vertices, t)) return false;
+    return true;
+  });
   constexpr unsigned kUnused = ~0u;
-  std::vector<unsigned> index(mesh.positions.size(), kUnused);
+  std::vector<unsigned> index(vertices, kUnused);
   for (const glm::uvec3& t : mesh.triangles)
     for (int i = 0; i < 3; ++i) index[t[i]] = 0;
   unsigned count = 0;
-  for (std::size_t i = 0; i < index.size(); ++i) {
-    if (index[i] == kUnused) continue;
-    mesh.positions[count] = mesh.positions[i];
-    if (!mesh.normals.empty()) mesh.normals[count] = mesh.normals[i];
-    if (!mesh.uvs.empty()) mesh.uvs[count] = mesh.uvs[i];
-    index[i] = count++;
-  }
-  mesh.positions.resize(count);
-  if (!mesh.normals.empty()) mesh.normals.resize(count);
-  if (!mesh.uvs.empty()) mesh.uvs.resize(count);
+  for (unsigned& i : index)
+    if (i != kUnused) i = count++;
+  const auto keep = [&](auto& attribute, std::size_t copies) {
+    if (attribute.empty()) return;
+    for (std::size_t k = 0; k < copies; ++k)
+      for (std::size_t i = 0; i < vertices; ++i)
+        if (index[i] != kUnused) attribute[k * count + index[i]] = attribute[k * vertices + i];
+    attribute.resize(copies * count);
+  };
+  keep(mesh.positions, steps);
+  keep(mesh.normals, steps);
+  keep(mesh.uvs, 1);
   for (glm::uvec3& t : mesh.triangles) t = glm::uvec3(index[t.x], index[t.y], index[t.z]);
+  return dropped;
 }
 
-}  // namespace
-
-glm::dmat3 normalTransform(const Mat4& toWorld) {
-  return glm::transpose(glm::inverse(glm::dmat3(glm::dmat4(toWorld))));
-}
-
-TriangleMesh finishMesh(MeshData data, const MeshOptions& options, std::size_t& dropped) {
+// In world space, with normals; nothing left out yet.
+TriangleMesh placeMesh(MeshData data, const MeshOptions& options) {
   TriangleMesh mesh;
   mesh.positions = std::move(data.positions);
   mesh.normals = std::move(data.normals);
@@ -124,8 +131,44 @@ TriangleMesh finishMesh(MeshData data, const MeshOptions& options, std::size_t& 
       for (Vec3f& n : mesh.normals) n = Vec3f(0) - n;
   }
 
-  dropped = std::erase_if(mesh.triangles, [&](const glm::uvec3& t) { return !hasArea(mesh, t); });
-  compact(mesh);
+  return mesh;
+}
+
+}  // namespace
+
+glm::dmat3 normalTransform(const Mat4& toWorld) {
+  return glm::transpose(glm::inverse(glm::dmat3(glm::dmat4(toWorld))));
+}
+
+TriangleMesh finishMesh(MeshData data, const MeshOptions& options, std::size_t& dropped) {
+  TriangleMesh mesh = placeMesh(std::move(data), options);
+  dropped = compact(mesh, 1);
+  return mesh;
+}
+
+MovingMesh joinSteps(std::vector<TriangleMesh> steps) {
+  MovingMesh mesh;
+  mesh.segments = static_cast<int>(steps.size()) - 1;
+  mesh.triangles = std::move(steps[0].triangles);
+  mesh.uvs = std::move(steps[0].uvs);
+  mesh.parallelogram = steps[0].parallelogram;
+  for (const TriangleMesh& step : steps) {
+    mesh.positions.insert(mesh.positions.end(), step.positions.begin(), step.positions.end());
+    mesh.normals.insert(mesh.normals.end(), step.normals.begin(), step.normals.end());
+  }
+  return mesh;
+}
+
+MovingMesh finishMovingMesh(const MeshData& data, const MeshOptions& options,
+                            std::span<const Mat4> toWorld, std::size_t& dropped) {
+  std::vector<TriangleMesh> steps;
+  for (const Mat4& matrix : toWorld) {
+    MeshOptions own = options;
+    own.toWorld = matrix;
+    steps.push_back(placeMesh(data, own));
+  }
+  MovingMesh mesh = joinSteps(std::move(steps));
+  dropped = compact(mesh, toWorld.size());
   return mesh;
 }
 

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "render/geometry/surface.h"
+
 #ifndef H2MC_EMBREE_MAJOR
 #define H2MC_EMBREE_MAJOR 3
 #endif
@@ -61,7 +63,7 @@ bool occluded1(RTCScene scene, RTCRay& ray) {
   return ray.tfar < 0;
 }
 
-RTCRay makeRay(const Vec3f& origin, const Vec3f& direction, float near, float far) {
+RTCRay makeRay(const Vec3f& origin, const Vec3f& direction, float near, float far, float time) {
   RTCRay ray;
   ray.org_x = origin.x;
   ray.org_y = origin.y;
@@ -70,7 +72,7 @@ RTCRay makeRay(const Vec3f& origin, const Vec3f& direction, float near, float fa
   ray.dir_x = direction.x;
   ray.dir_y = direction.y;
   ray.dir_z = direction.z;
-  ray.time = 0;
+  ray.time = time;
   ray.tfar = far;
   ray.mask = ~0u;
   ray.id = 0;
@@ -81,19 +83,21 @@ RTCRay makeRay(const Vec3f& origin, const Vec3f& direction, float near, float fa
 struct Line {
   glm::dvec3 origin, direction;
   double near, far;
+  float time;
 };
 
 Line lineOf(RTCRayN* ray) {
   return {{RTCRayN_org_x(ray, 1, 0), RTCRayN_org_y(ray, 1, 0), RTCRayN_org_z(ray, 1, 0)},
           {RTCRayN_dir_x(ray, 1, 0), RTCRayN_dir_y(ray, 1, 0), RTCRayN_dir_z(ray, 1, 0)},
           RTCRayN_tnear(ray, 1, 0),
-          RTCRayN_tfar(ray, 1, 0)};
+          RTCRayN_tfar(ray, 1, 0),
+          RTCRayN_time(ray, 1, 0)};
 }
 
 // The roots in double: an origin that is off the sphere by a few ulps of float is clearly inside or
 // outside.
-bool hitSphere(const Sphere& sphere, const Line& line, double& t, int& root) {
-  const glm::dvec3 toCenter = glm::dvec3(sphere.center) - line.origin;
+bool hitSphere(const detail::SphereView<float>& sphere, const Line& line, double& t, int& root) {
+  const glm::dvec3 toCenter = sphere.exactCenter - line.origin;
   const double length2 = glm::dot(line.direction, line.direction);
   const double closest = glm::dot(toCenter, line.direction) / length2;
   const glm::dvec3 perpendicular = toCenter - line.direction * closest;
@@ -112,9 +116,9 @@ bool hitSphere(const Sphere& sphere, const Line& line, double& t, int& root) {
   return false;
 }
 
-bool hitDisk(const Disk& disk, const Line& line, double& t) {
-  const glm::dvec3 ax(disk.axisX), ay(disk.axisY), n = glm::cross(ax, ay);
-  const glm::dvec3 start = line.origin - glm::dvec3(disk.center);
+bool hitDisk(const detail::DiskView<float>& disk, const Line& line, double& t) {
+  const glm::dvec3 &ax = disk.exactX, &ay = disk.exactY, n = glm::cross(ax, ay);
+  const glm::dvec3 start = line.origin - disk.exactCenter;
   t = -glm::dot(start, n) / glm::dot(line.direction, n);
   if (!(t > line.near && t < line.far)) return false;
   const glm::dvec3 p = start + line.direction * t;
@@ -125,21 +129,30 @@ bool hitDisk(const Disk& disk, const Line& line, double& t) {
 
 bool hitShape(const Shape& shape, const Line& line, double& t, int& root) {
   root = 0;
-  if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
-    return hitSphere(*sphere, line, t, root);
-  return hitDisk(std::get<Disk>(shape.geometry), line, t);
+  return detail::withView<float>(shape, &line.time, [&](const auto& view) {
+    if constexpr (requires { view.radius; })
+      return hitSphere(view, line, t, root);
+    else if constexpr (requires { view.axisX; })
+      return hitDisk(view, line, t);
+    else
+      return false;  // meshes are not asked about here
+  });
 }
 
 void shapeBounds(const RTCBoundsFunctionArguments* arguments) {
-  const Shape& shape = *static_cast<const Shape*>(arguments->geometryUserPtr);
+  const Geometry& geometry = static_cast<const Shape*>(arguments->geometryUserPtr)->geometry;
+  const std::size_t step = arguments->timeStep;
+  const auto* sphere = std::get_if<Sphere>(&geometry);
+  if (const auto* moving = std::get_if<MovingSphere>(&geometry)) sphere = &moving->steps[step];
   Vec3f center, extent;
-  if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
+  if (sphere) {
     center = sphere->center;
     extent = Vec3f(sphere->radius);
   } else {
-    const auto& disk = std::get<Disk>(shape.geometry);
-    center = disk.center;
-    extent = glm::sqrt(disk.axisX * disk.axisX + disk.axisY * disk.axisY);
+    const auto* disk = std::get_if<Disk>(&geometry);
+    if (const auto* moving = std::get_if<MovingDisk>(&geometry)) disk = &moving->steps[step];
+    center = disk->center;
+    extent = glm::sqrt(disk->axisX * disk->axisX + disk->axisY * disk->axisY);
   }
   // Rounding of this and of the traversal.
   extent += (glm::abs(center) + extent) * 1e-6f;
@@ -182,19 +195,26 @@ float largestCoordinate(const Vec3f& p) {
 // The part of the offset that does not depend on where a ray starts.
 float leastOffset(std::span<const Shape> shapes) {
   float tiltedEdge2 = 0, coordinate = 0;
-  for (const Shape& shape : shapes) {
-    const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry);
-    if (!mesh) continue;
-    for (const glm::uvec3& t : mesh->triangles) {
-      const Vec3f &a = mesh->positions[t.x], &b = mesh->positions[t.y], &c = mesh->positions[t.z];
+  const auto look = [&](const std::vector<glm::uvec3>& triangles, const Vec3f* positions,
+                        bool moves) {
+    for (const glm::uvec3& t : triangles) {
+      const Vec3f &a = positions[t.x], &b = positions[t.y], &c = positions[t.z];
       coordinate =
           std::max({coordinate, largestCoordinate(a), largestCoordinate(b), largestCoordinate(c)});
       // Parallel to a coordinate plane: Embree's arithmetic is exact across it.
-      if ((a.x == b.x && a.x == c.x) || (a.y == b.y && a.y == c.y) || (a.z == b.z && a.z == c.z))
+      if (!moves &&
+          ((a.x == b.x && a.x == c.x) || (a.y == b.y && a.y == c.y) || (a.z == b.z && a.z == c.z)))
         continue;
       const Vec3f e1 = b - a, e2 = c - a, e3 = c - b;
       tiltedEdge2 = std::max({tiltedEdge2, dot(e1, e1), dot(e2, e2), dot(e3, e3)});
     }
+  };
+  for (const Shape& shape : shapes) {
+    if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry))
+      look(mesh->triangles, mesh->positions.data(), false);
+    else if (const auto* moving = std::get_if<MovingMesh>(&shape.geometry))
+      for (std::size_t i = 0; i < moving->positions.size(); i += moving->vertices())
+        look(moving->triangles, moving->positions.data() + i, true);
   }
   return std::sqrt(tiltedEdge2) * kTriangleOffset + coordinate * kLeastOffset;
 }
@@ -228,17 +248,25 @@ struct RayTracer::Impl {
 void RayTracer::Impl::attach(std::size_t index) {
   const Shape& shape = shapes[index];
   const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry);
-  if (mesh && mesh->triangles.empty()) return;
+  const auto* moving = std::get_if<MovingMesh>(&shape.geometry);
+  if ((mesh && mesh->triangles.empty()) || (moving && moving->triangles.empty())) return;
   const RTCGeometry geometry =
-      rtcNewGeometry(device, mesh ? RTC_GEOMETRY_TYPE_TRIANGLE : RTC_GEOMETRY_TYPE_USER);
-  if (mesh) {
+      rtcNewGeometry(device, shape.isMesh() ? RTC_GEOMETRY_TYPE_TRIANGLE : RTC_GEOMETRY_TYPE_USER);
+  const auto steps = static_cast<unsigned>(shape.motionSegments() + 1);
+  rtcSetGeometryTimeStepCount(geometry, steps);
+  if (shape.isMesh()) {
     // Copies: Embree reads a few bytes beyond the last vertex.
-    const auto copy = [&](RTCBufferType type, RTCFormat format, const auto& from) {
-      void* to = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(from[0]), from.size());
-      if (to) std::memcpy(to, from.data(), from.size() * sizeof(from[0]));
+    const auto copy = [&](RTCBufferType type, unsigned slot, RTCFormat format, const auto& from,
+                          std::size_t first, std::size_t count) {
+      void* to = rtcSetNewGeometryBuffer(geometry, type, slot, format, sizeof(from[0]), count);
+      if (to) std::memcpy(to, from.data() + first, count * sizeof(from[0]));
     };
-    copy(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh->positions);
-    copy(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh->triangles);
+    const auto& triangles = mesh ? mesh->triangles : moving->triangles;
+    const auto& positions = mesh ? mesh->positions : moving->positions;
+    const std::size_t vertices = positions.size() / steps;
+    for (unsigned k = 0; k < steps; ++k)
+      copy(RTC_BUFFER_TYPE_VERTEX, k, RTC_FORMAT_FLOAT3, positions, k * vertices, vertices);
+    copy(RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles, 0, triangles.size());
   } else {
     rtcSetGeometryUserPrimitiveCount(geometry, 1);
     rtcSetGeometryUserData(geometry, const_cast<Shape*>(&shape));
@@ -271,28 +299,30 @@ RayTracer::RayTracer(std::span<const Shape> shapes) : impl_(std::make_unique<Imp
 RayTracer::~RayTracer() = default;
 
 PrimitiveId RayTracer::intersect(const Vec3f& origin, const Vec3f& normal, const Vec3f& direction,
-                                 float minDistance, float maxDistance) const {
+                                 float minDistance, float maxDistance, float time) const {
   RTCRayHit hit;
-  hit.ray = makeRay(impl_->leave(origin, normal, direction), direction, minDistance, maxDistance);
+  hit.ray =
+      makeRay(impl_->leave(origin, normal, direction), direction, minDistance, maxDistance, time);
   hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   if (!intersect1(impl_->scene, hit)) return {};
-  const bool mesh = std::holds_alternative<TriangleMesh>(impl_->shapes[hit.hit.geomID].geometry);
+  const bool mesh = impl_->shapes[hit.hit.geomID].isMesh();
   return {hit.hit.geomID, mesh ? hit.hit.primID : static_cast<std::uint32_t>(hit.hit.u)};
 }
 
 bool RayTracer::visible(const Vec3f& from, const Vec3f& fromNormal, const Vec3f& to,
-                        const Vec3f& toNormal) const {
+                        const Vec3f& toNormal, float time) const {
   const Vec3f segment = to - from;
   const Vec3f start = impl_->leave(from, fromNormal, segment);
   const Vec3f end = impl_->leave(to, toNormal, -segment);
-  RTCRay ray = makeRay(start, end - start, 0, 1 - kShortening);
+  RTCRay ray = makeRay(start, end - start, 0, 1 - kShortening, time);
   return !occluded1(impl_->scene, ray);
 }
 
-bool RayTracer::escapes(const Vec3f& origin, const Vec3f& normal, const Vec3f& direction) const {
+bool RayTracer::escapes(const Vec3f& origin, const Vec3f& normal, const Vec3f& direction,
+                        float time) const {
   RTCRay ray = makeRay(impl_->leave(origin, normal, direction), direction, 0,
-                       std::numeric_limits<float>::infinity());
+                       std::numeric_limits<float>::infinity(), time);
   return !occluded1(impl_->scene, ray);
 }
 

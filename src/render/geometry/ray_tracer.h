@@ -1,4 +1,7 @@
 // Visibility, by Embree. The only module that knows Embree.
+//
+// `time` is the moment in [0, 1] of the shutter's opening. Embree moves what moves in the same steps as
+// the templated code (shape.h), so that both see the same surfaces.
 #pragma once
 
 #include <memory>
@@ -19,14 +22,15 @@ class RayTracer {
   // pass its geometric normal: the ray starts a few ulps off the surface, on the direction's side;
   // otherwise pass a zero vector. Invalid when nothing is hit. Thread-safe.
   PrimitiveId intersect(const Vec3f& origin, const Vec3f& normal, const Vec3f& direction,
-                        float minDistance = 0, float maxDistance = kFar) const;
+                        float minDistance = 0, float maxDistance = kFar, float time = 0) const;
 
   // True when nothing lies between two points, both offset along their normals towards each other
   // (zero normal: no offset). Thread-safe.
-  bool visible(const Vec3f& from, const Vec3f& fromNormal, const Vec3f& to,
-               const Vec3f& toNormal) const;
+  bool visible(const Vec3f& from, const Vec3f& fromNormal, const Vec3f& to, const Vec3f& toNormal,
+               float time = 0) const;
   // True when a ray leaves the scene.
-  bool escapes(const Vec3f& origin, const Vec3f& normal, const Vec3f& direction) const;
+  bool escapes(const Vec3f& origin, const Vec3f& normal, const Vec3f& direction,
+               float time = 0) const;
 
   static constexpr float kFar = 1e30f;
 

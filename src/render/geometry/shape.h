@@ -34,11 +34,40 @@ struct Disk {
   Vec3f normal{0, 0, 1};  // unit, flipped already where the scene says so
 };
 
+// Shapes that move: their state at equally spaced moments of the shutter's opening, from its
+// beginning to its end. Between two of these steps every number goes in a straight line (normals are
+// brought to unit length afterwards): that is how Embree sees motion, so it is what motion is here.
+
+struct MovingMesh {
+  int segments = 1;              // steps - 1, at least 1
+  std::vector<Vec3f> positions;  // of all vertices at the first step, then at the second, ...
+  std::vector<Vec3f> normals;    // empty, or likewise
+  std::vector<Vec2f> uvs;        // empty, or one a vertex
+  std::vector<glm::uvec3> triangles;
+  bool parallelogram = false;  // as in TriangleMesh
+  std::size_t vertices() const { return positions.size() / static_cast<std::size_t>(segments + 1); }
+};
+
+struct MovingSphere {
+  std::vector<Sphere> steps;  // at least 2
+};
+
+struct MovingDisk {
+  std::vector<Disk> steps;  // at least 2
+};
+
+using Geometry = std::variant<TriangleMesh, Sphere, Disk, MovingMesh, MovingSphere, MovingDisk>;
+
 struct Shape {
   std::string name;  // id or plugin name with file, for messages
-  std::variant<TriangleMesh, Sphere, Disk> geometry;
+  Geometry geometry;
   int material = -1;  // index into Scene::materials
   int light = -1;     // index into Scene::lights of the area light on it, or -1
+
+  bool isMesh() const { return geometry.index() == 0 || geometry.index() == 3; }
+  bool moves() const { return geometry.index() >= 3; }
+  // Into how many pieces of equal length the shutter's opening is cut for it; 0 if it does not move.
+  int motionSegments() const;
 };
 
 }  // namespace h2mc

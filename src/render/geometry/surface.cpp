@@ -30,13 +30,10 @@ bool planeCoordinates(const glm::dvec3& e1, const glm::dvec3& e2, const glm::dve
 
 bool inside(double x) { return x >= -kTolerance && x <= 1 + kTolerance; }
 
-bool invertTriangle(const TriangleMesh& mesh, std::uint32_t index, const Vec3f& p, Vec2f& u) {
-  const glm::uvec3& t = mesh.triangles[index];
-  const glm::dvec3 a(mesh.positions[t.x]);
+template <class P>
+bool invertTriangle(const detail::Triangle<P>& triangle, const Vec3f& p, Vec2f& u) {
   double b1, b2;
-  if (!planeCoordinates(glm::dvec3(mesh.positions[t.y]) - a, glm::dvec3(mesh.positions[t.z]) - a,
-                        glm::dvec3(p) - a, b1, b2))
-    return false;
+  if (!planeCoordinates(triangle.ab, triangle.ac, glm::dvec3(p) - triangle.a, b1, b2)) return false;
   if (!inside(b1) || !inside(b2) || !inside(b1 + b2)) return false;
   b1 = std::clamp(b1, 0.0, 1.0);
   // b1 = 1 - sqrt(1 - u0), b2 = u1 sqrt(1 - u0)
@@ -44,20 +41,19 @@ bool invertTriangle(const TriangleMesh& mesh, std::uint32_t index, const Vec3f& 
   return true;
 }
 
-bool invertParallelogram(const TriangleMesh& mesh, const Vec3f& p, Vec2f& u) {
-  const glm::dvec3 a(mesh.positions[mesh.triangles[0].x]);
+// Of triangles (a, b, c) and (c, d, a).
+template <class P>
+bool invertParallelogram(const detail::Triangle<P>& triangle, const Vec3f& p, Vec2f& u) {
   double x, y;
-  if (!planeCoordinates(glm::dvec3(mesh.positions[mesh.triangles[0].y]) - a,
-                        glm::dvec3(mesh.positions[mesh.triangles[1].y]) - a, glm::dvec3(p) - a, x,
-                        y))
+  if (!planeCoordinates(triangle.ab, triangle.ac - triangle.ab, glm::dvec3(p) - triangle.a, x, y))
     return false;
   if (!inside(x) || !inside(y)) return false;
   u = {coordinate(x), coordinate(y)};
   return true;
 }
 
-bool invertSphere(const Sphere& sphere, const Vec3f& p, Vec2f& u) {
-  const glm::dvec3 d = glm::dvec3(p) - glm::dvec3(sphere.center);
+bool invertSphere(const detail::SphereView<float>& sphere, const Vec3f& p, Vec2f& u) {
+  const glm::dvec3 d = glm::dvec3(p) - sphere.exactCenter;
   const double distance = std::sqrt(glm::dot(d, d));
   if (!(std::abs(distance - static_cast<double>(sphere.radius)) <=
         kTolerance * static_cast<double>(sphere.radius)))
@@ -66,10 +62,9 @@ bool invertSphere(const Sphere& sphere, const Vec3f& p, Vec2f& u) {
   return true;
 }
 
-bool invertDisk(const Disk& disk, const Vec3f& p, Vec2f& u) {
+bool invertDisk(const detail::DiskView<float>& disk, const Vec3f& p, Vec2f& u) {
   double x, y;
-  if (!planeCoordinates(glm::dvec3(disk.axisX), glm::dvec3(disk.axisY),
-                        glm::dvec3(p) - glm::dvec3(disk.center), x, y))
+  if (!planeCoordinates(disk.exactX, disk.exactY, glm::dvec3(p) - disk.exactCenter, x, y))
     return false;
   const double r2 = x * x + y * y;
   if (r2 > 1 + 2 * kTolerance) return false;
@@ -77,44 +72,93 @@ bool invertDisk(const Disk& disk, const Vec3f& p, Vec2f& u) {
   return true;
 }
 
-double triangleArea(const TriangleMesh& mesh, std::size_t index) {
-  const glm::uvec3& t = mesh.triangles[index];
-  const glm::dvec3 a(mesh.positions[t.x]);
-  const glm::dvec3 n =
-      glm::cross(glm::dvec3(mesh.positions[t.y]) - a, glm::dvec3(mesh.positions[t.z]) - a);
+template <class P>
+double triangleArea(const detail::Triangle<P>& triangle) {
+  const glm::dvec3 n = glm::cross(triangle.ab, triangle.ac);
   return std::sqrt(glm::dot(n, n)) / 2;
 }
 
-}  // namespace
-
-bool invertPrimitive(std::span<const Shape> shapes, PrimitiveId id, const Vec3f& p, Vec2f& u) {
-  const auto& geometry = shapes[id.shape].geometry;
-  if (const auto* mesh = std::get_if<TriangleMesh>(&geometry))
-    return mesh->parallelogram ? invertParallelogram(*mesh, p, u)
-                               : invertTriangle(*mesh, id.primitive, p, u);
-  if (const auto* sphere = std::get_if<Sphere>(&geometry)) return invertSphere(*sphere, p, u);
-  return invertDisk(std::get<Disk>(geometry), p, u);
-}
-
-double totalArea(const Shape& shape) {
-  if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
-    double area = 0;
-    for (std::size_t i = 0; i < mesh->triangles.size(); ++i) area += triangleArea(*mesh, i);
-    return area;
-  }
-  if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
-    const double radius = static_cast<double>(sphere->radius);
-    return 4 * std::numbers::pi * radius * radius;
-  }
-  const auto& disk = std::get<Disk>(shape.geometry);
+double diskArea(const Disk& disk) {
   const glm::dvec3 n = glm::cross(glm::dvec3(disk.axisX), glm::dvec3(disk.axisY));
   return std::numbers::pi * std::sqrt(glm::dot(n, n));
 }
 
-double primitiveArea(const Shape& shape, std::uint32_t primitive) {
+double sphereArea(const Sphere& sphere) {
+  const double radius = static_cast<double>(sphere.radius);
+  return 4 * std::numbers::pi * radius * radius;
+}
+
+// The mean of f over a motion's steps, 0 .. segments.
+template <class F>
+double meanOverSteps(int segments, F&& f) {
+  double sum = 0;
+  for (int i = 0; i <= segments; ++i) sum += f(i);
+  return sum / (segments + 1);
+}
+
+double meshTriangleArea(const Shape& shape, std::uint32_t index) {
+  if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry))
+    return triangleArea(detail::triangleOf(detail::StillMesh<float>{*mesh}, index));
+  const auto& mesh = std::get<MovingMesh>(shape.geometry);
+  return meanOverSteps(mesh.segments, [&](int step) {
+    const float time = static_cast<float>(step) / static_cast<float>(mesh.segments);
+    return triangleArea(detail::triangleOf(detail::MeshAtMoment<float>(mesh, time), index));
+  });
+}
+
+std::uint32_t triangleCount(const Shape& shape) {
   const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry);
-  if (mesh && !mesh->parallelogram) return triangleArea(*mesh, primitive);
-  return totalArea(shape);
+  return static_cast<std::uint32_t>(mesh ? mesh->triangles.size()
+                                         : std::get<MovingMesh>(shape.geometry).triangles.size());
+}
+
+}  // namespace
+
+int Shape::motionSegments() const {
+  if (const auto* mesh = std::get_if<MovingMesh>(&geometry)) return mesh->segments;
+  if (const auto* sphere = std::get_if<MovingSphere>(&geometry))
+    return static_cast<int>(sphere->steps.size()) - 1;
+  if (const auto* disk = std::get_if<MovingDisk>(&geometry))
+    return static_cast<int>(disk->steps.size()) - 1;
+  return 0;
+}
+
+bool invertPrimitive(std::span<const Shape> shapes, PrimitiveId id, const Vec3f& p, Vec2f& u,
+                     const float* time) {
+  return detail::withView<float>(shapes[id.shape], time, [&](const auto& view) {
+    if constexpr (requires { view.radius; }) {
+      return invertSphere(view, p, u);
+    } else if constexpr (requires { view.axisX; }) {
+      return invertDisk(view, p, u);
+    } else {
+      return view.mesh.parallelogram ? invertParallelogram(detail::triangleOf(view, 0), p, u)
+                                     : invertTriangle(detail::triangleOf(view, id.primitive), p, u);
+    }
+  });
+}
+
+double totalArea(const Shape& shape) {
+  if (shape.isMesh()) {
+    double area = 0;
+    for (std::uint32_t i = 0; i < triangleCount(shape); ++i) area += meshTriangleArea(shape, i);
+    return area;
+  }
+  if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) return sphereArea(*sphere);
+  if (const auto* disk = std::get_if<Disk>(&shape.geometry)) return diskArea(*disk);
+  return meanOverSteps(shape.motionSegments(), [&](int step) {
+    const auto i = static_cast<std::size_t>(step);
+    if (const auto* sphere = std::get_if<MovingSphere>(&shape.geometry))
+      return sphereArea(sphere->steps[i]);
+    return diskArea(std::get<MovingDisk>(shape.geometry).steps[i]);
+  });
+}
+
+double primitiveArea(const Shape& shape, std::uint32_t primitive) {
+  if (!shape.isMesh()) return totalArea(shape);
+  const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry);
+  const bool whole =
+      mesh ? mesh->parallelogram : std::get<MovingMesh>(shape.geometry).parallelogram;
+  return whole ? totalArea(shape) : meshTriangleArea(shape, primitive);
 }
 
 }  // namespace h2mc

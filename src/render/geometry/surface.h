@@ -16,18 +16,97 @@
 
 namespace h2mc {
 
+namespace detail {
+
+template <class T, class View>
+SurfacePoint<T> intersectView(const View& view, std::uint32_t primitive, const Vec3<T>& origin,
+                              const Vec3<T>& direction) {
+  if constexpr (requires {
+                  view.center;
+                  view.radius;
+                })
+    return intersectSphere<T>(view, primitive, origin, direction);
+  else if constexpr (requires { view.axisX; })
+    return intersectDisk<T>(view, origin, direction);
+  else
+    return intersectTriangle<T>(view, primitive, origin, direction);
+}
+
+template <class T, class View>
+SurfacePoint<T> sampleView(const View& view, std::uint32_t primitive, const T& u0, const T& u1) {
+  if constexpr (requires {
+                  view.center;
+                  view.radius;
+                })
+    return sampleSphere<T>(view, u0, u1);
+  else if constexpr (requires { view.axisX; })
+    return sampleDisk<T>(view, u0, u1);
+  else if (view.mesh.parallelogram)
+    return sampleParallelogram<T>(view, u0, u1);
+  else
+    return sampleTriangle<T>(view, primitive, u0, u1);
+}
+
+template <class View>
+auto areaOfView(const View& view, std::uint32_t primitive) {
+  if constexpr (requires {
+                  view.center;
+                  view.radius;
+                }) {
+    using P = decltype(view.radius);
+    return P(view.radius * view.radius * Scalar<P>(4 * std::numbers::pi));
+  } else if constexpr (requires { view.axisX; }) {
+    using P = decltype(view.axisX.x);
+    const double area = glm::length(glm::cross(view.exactX, view.exactY));
+    if constexpr (!ad::isDual<P>) {
+      return P(area * std::numbers::pi);
+    } else {
+      // Scaled to 1 before it is squared.
+      using S = Scalar<P>;
+      const Vec3<P> unit = cross(view.axisX, view.axisY) * S(1 / std::max(area, 1e-30));
+      return P(sqrt(length2(unit)) * S(area * std::numbers::pi));
+    }
+  } else {
+    const auto triangle = triangleOf(view, primitive);
+    using P = decltype(triangle.inverseArea2);
+    using S = Scalar<P>;
+    // A triangle without area has no point to be sampled.
+    if (!(value(triangle.inverseArea2) > 0)) return P(S(1e-30));
+    return P(P(S(view.mesh.parallelogram ? 1 : 0.5)) / triangle.inverseArea2);
+  }
+}
+
+// Calls f with the shape's geometry as plain numbers, or as functions of `time`.
+template <class T, class F>
+auto withView(const Shape& shape, const T* time, F&& f) {
+  using S = Scalar<T>;
+  const Geometry& geometry = shape.geometry;
+  if (const auto* mesh = std::get_if<TriangleMesh>(&geometry)) [[likely]]
+    return f(StillMesh<S>{*mesh});
+  if (const auto* sphere = std::get_if<Sphere>(&geometry)) return f(viewOf<S>(*sphere));
+  if (const auto* disk = std::get_if<Disk>(&geometry)) return f(viewOf<S>(*disk));
+  if (const auto* mesh = std::get_if<MovingMesh>(&geometry))
+    return f(MeshAtMoment<T>(*mesh, *time));
+  if (const auto* sphere = std::get_if<MovingSphere>(&geometry))
+    return f(viewOf<T>(*sphere, *time));
+  return f(viewOf<T>(*std::get_if<MovingDisk>(&geometry), *time));
+}
+
+}  // namespace detail
+
 // Where the line from `origin` along unit `direction` meets the primitive's (extended) surface: the
 // plane of a triangle or disk, the chosen root of a sphere. What RayTracer found is recomputed here,
 // so that derivatives and values come from the same lines. Precondition: the ray is not parallel.
+//
+// `time`, here and below: the moment in [0, 1] of the shutter's opening. May be null if the shape does
+// not move.
 template <class T>
 SurfacePoint<T> intersectPrimitive(std::span<const Shape> shapes, PrimitiveId id,
-                                   const Vec3<T>& origin, const Vec3<T>& direction) {
-  const auto& geometry = shapes[id.shape].geometry;
-  if (const auto* mesh = std::get_if<TriangleMesh>(&geometry)) [[likely]]
-    return detail::intersectTriangle<T>(*mesh, id.primitive, origin, direction);
-  if (const auto* sphere = std::get_if<Sphere>(&geometry))
-    return detail::intersectSphere<T>(*sphere, id.primitive, origin, direction);
-  return detail::intersectDisk<T>(*std::get_if<Disk>(&geometry), origin, direction);
+                                   const Vec3<T>& origin, const Vec3<T>& direction,
+                                   const std::type_identity_t<T>* time = nullptr) {
+  return detail::withView<T>(shapes[id.shape], time, [&](const auto& view) {
+    return detail::intersectView<T>(view, id.primitive, origin, direction);
+  });
 }
 
 // A point uniform by area on the primitive (on the whole shape for spheres, disks and
@@ -35,28 +114,29 @@ SurfacePoint<T> intersectPrimitive(std::span<const Shape> shapes, PrimitiveId id
 // towards a triangle's corner (u0 -> 1), a sphere's poles and a disk's centre.
 template <class T>
 SurfacePoint<T> samplePrimitive(std::span<const Shape> shapes, PrimitiveId id, const T& u0,
-                                const T& u1) {
-  const auto& geometry = shapes[id.shape].geometry;
-  if (const auto* mesh = std::get_if<TriangleMesh>(&geometry)) [[likely]] {
-    if (mesh->parallelogram) return detail::sampleParallelogram<T>(*mesh, u0, u1);
-    return detail::sampleTriangle<T>(*mesh, id.primitive, u0, u1);
-  }
-  if (const auto* sphere = std::get_if<Sphere>(&geometry))
-    return detail::sampleSphere<T>(*sphere, u0, u1);
-  return detail::sampleDisk<T>(*std::get_if<Disk>(&geometry), u0, u1);
+                                const T& u1, const std::type_identity_t<T>* time = nullptr) {
+  return detail::withView<T>(shapes[id.shape], time, [&](const auto& view) {
+    return detail::sampleView<T>(view, id.primitive, u0, u1);
+  });
 }
 
 // The inverse: coordinates with samplePrimitive(...) at `p`; false when `p` does not lie on the
 // primitive (by more than a thousandth of its size).
-bool invertPrimitive(std::span<const Shape> shapes, PrimitiveId id, const Vec3f& p, Vec2f& u);
+bool invertPrimitive(std::span<const Shape> shapes, PrimitiveId id, const Vec3f& p, Vec2f& u,
+                     const float* time = nullptr);
 
-// Area of what samplePrimitive covers; total area of a shape.
+// Area of what samplePrimitive covers, as a function of time.
+template <class T>
+T primitiveAreaAt(const Shape& shape, std::uint32_t primitive, const T* time) {
+  return detail::withView<T>(
+      shape, time, [&](const auto& view) -> T { return T(detail::areaOfView(view, primitive)); });
+}
+
+// The same, in the mean over the steps of a motion; total area of a shape likewise.
 double primitiveArea(const Shape& shape, std::uint32_t primitive);
 double totalArea(const Shape& shape);
 
 // Whether u1 of samplePrimitive is an angle, so that 0 and 1 are the same point.
-inline bool wrapsAround(const Shape& shape) {
-  return !std::holds_alternative<TriangleMesh>(shape.geometry);
-}
+inline bool wrapsAround(const Shape& shape) { return !shape.isMesh(); }
 
 }  // namespace h2mc

@@ -2,52 +2,97 @@
 #pragma once
 
 #include "render/core/safe_math.h"
+#include "render/geometry/moment.h"
 #include "render/geometry/shape.h"
 #include "render/geometry/surface_point.h"
 
 namespace h2mc::detail {
 
-// The point center + x axisX + y axisY.
+// A disk with parameters of P: plain numbers where it stands still, functions of time where it
+// moves.
+template <class P>
+struct DiskView {
+  Vec3<P> center, axisX, axisY, normal;
+  glm::dvec3 exactCenter, exactX, exactY;  // values
+};
+
+template <class S>
+DiskView<S> viewOf(const Disk& disk) {
+  return {Vec3<S>(disk.center),  Vec3<S>(disk.axisX),     Vec3<S>(disk.axisY),
+          Vec3<S>(disk.normal),  glm::dvec3(disk.center), glm::dvec3(disk.axisX),
+          glm::dvec3(disk.axisY)};
+}
+
 template <class T>
-SurfacePoint<T> diskPoint(const Disk& disk, const T& x, const T& y) {
+DiskView<T> viewOf(const MovingDisk& disk, const T& time) {
+  const auto moment = Moment<T>::at(static_cast<int>(disk.steps.size()) - 1, time);
+  const Disk &a = disk.steps[static_cast<std::size_t>(moment.index)],
+             &b = disk.steps[static_cast<std::size_t>(moment.index) + 1];
+  DiskView<T> r;
+  r.center = moment.between(a.center, b.center);
+  r.axisX = moment.between(a.axisX, b.axisX);
+  r.axisY = moment.between(a.axisY, b.axisY);
+  r.exactCenter = moment.exactlyBetween(a.center, b.center);
+  r.exactX = moment.exactlyBetween(a.axisX, b.axisX);
+  r.exactY = moment.exactlyBetween(a.axisY, b.axisY);
+  // Across the axes, on the side that the disk has: scaled to 1 before it is squared.
+  using S = Scalar<T>;
+  const glm::dvec3 across = glm::cross(r.exactX, r.exactY);
+  const double side = glm::dot(across, glm::dvec3(a.normal)) < 0 ? -1 : 1;
+  const S scale = S(side / std::max(std::sqrt(glm::dot(across, across)), 1e-30));
+  r.normal = ad::normalize(Vec3<T>(cross(r.axisX, r.axisY) * scale));
+  return r;
+}
+
+// The point center + x axisX + y axisY.
+template <class T, class P>
+SurfacePoint<T> diskPoint(const DiskView<P>& disk, const T& x, const T& y) {
   using S = Scalar<T>;
   SurfacePoint<T> r;
-  const Vec3<S> ax = plain<T>(disk.axisX), ay = plain<T>(disk.axisY);
-  r.p = {linear2(x, ax.x, y, ay.x), linear2(x, ax.y, y, ay.y), linear2(x, ax.z, y, ay.z)};
-  r.p = withValue<T>(r.p, Vec3<S>(glm::dvec3(disk.center) +
-                                  glm::dvec3(disk.axisX) * static_cast<double>(value(x)) +
-                                  glm::dvec3(disk.axisY) * static_cast<double>(value(y))));
-  const Vec3<S> normal = plain<T>(disk.normal);
-  r.ng = lift<T>(normal);
-  const Frame<S> frame = Frame<S>::fromNormal(normal);
-  r.shading = {lift<T>(frame.s), lift<T>(frame.t), r.ng};
+  const Vec3<P>&ax = disk.axisX, &ay = disk.axisY;
+  r.p = {weighted2(x, ax.x, y, ay.x), weighted2(x, ax.y, y, ay.y), weighted2(x, ax.z, y, ay.z)};
+  if constexpr (ad::isDual<P>) r.p = r.p + disk.center;
+  r.p = withValue<T>(r.p, Vec3<S>(disk.exactCenter + disk.exactX * static_cast<double>(value(x)) +
+                                  disk.exactY * static_cast<double>(value(y))));
+  r.ng = liftFrom<T>(disk.normal);
+  const Frame<P> frame = Frame<P>::fromNormal(disk.normal);
+  r.shading = {liftFrom<T>(frame.s), liftFrom<T>(frame.t), r.ng};
   r.uv = {safeSqrt(T(dot2(x, x, y, y))), turns(y, x)};
   return r;
 }
 
 // Vectors with dot(dual_i, axis_j) = delta_ij, for axes that need not be orthogonal.
-template <class S>
-void dualAxes(const Disk& disk, Vec3<S>& dualX, Vec3<S>& dualY) {
-  const glm::dvec3 ax(disk.axisX), ay(disk.axisY), n = glm::cross(ax, ay);
-  const double inverse = 1 / glm::dot(n, n);
-  dualX = Vec3<S>(glm::cross(ay, n) * inverse);
-  dualY = Vec3<S>(glm::cross(n, ax) * inverse);
+template <class P>
+void dualAxes(const DiskView<P>& disk, Vec3<P>& dualX, Vec3<P>& dualY) {
+  const glm::dvec3 n = glm::cross(disk.exactX, disk.exactY);
+  if constexpr (ad::isDual<P>) {
+    // Scaled to 1 before it is squared, as above.
+    using S = Scalar<P>;
+    const S scale = S(1 / std::max(std::sqrt(glm::dot(n, n)), 1e-30));
+    const Vec3<P> unit = cross(disk.axisX, disk.axisY) * scale;
+    const P inverse = (P(S(1)) / length2(unit)) * scale;
+    dualX = cross(disk.axisY, unit) * inverse;
+    dualY = cross(unit, disk.axisX) * inverse;
+  } else {
+    const double inverse = 1 / glm::dot(n, n);
+    dualX = Vec3<P>(glm::cross(disk.exactY, n) * inverse);
+    dualY = Vec3<P>(glm::cross(n, disk.exactX) * inverse);
+  }
 }
 
-template <class T>
-SurfacePoint<T> intersectDisk(const Disk& disk, const Vec3<T>& origin, const Vec3<T>& direction) {
-  using S = Scalar<T>;
-  const Vec3<S> normal = plain<T>(disk.normal);
-  const Vec3<T> start = origin - plain<T>(disk.center);
-  const T t = -dot(start, normal) / dot(direction, normal);
+template <class T, class P>
+SurfacePoint<T> intersectDisk(const DiskView<P>& disk, const Vec3<T>& origin,
+                              const Vec3<T>& direction) {
+  const Vec3<T> start = origin - disk.center;
+  const T t = -dot(start, disk.normal) / dot(direction, disk.normal);
   const Vec3<T> p = start + direction * t;
-  Vec3<S> dualX, dualY;
-  dualAxes<S>(disk, dualX, dualY);
-  return diskPoint<T>(disk, dot(p, dualX), dot(p, dualY));
+  Vec3<P> dualX, dualY;
+  dualAxes<P>(disk, dualX, dualY);
+  return diskPoint<T>(disk, T(dot(p, dualX)), T(dot(p, dualY)));
 }
 
-template <class T>
-SurfacePoint<T> sampleDisk(const Disk& disk, const T& u0, const T& u1) {
+template <class T, class P>
+SurfacePoint<T> sampleDisk(const DiskView<P>& disk, const T& u0, const T& u1) {
   using S = Scalar<T>;
   T sinPhi, cosPhi;
   ad::sincos(T(u1 * S(2 * std::numbers::pi)), sinPhi, cosPhi);

@@ -18,7 +18,9 @@ class PathSampler final : public PixelSampler {
 
   double sample(const Scene& scene, Random& random, float filmX, float filmY, Film& film,
                 SampleTally& tally) override {
-    Rgbf radiance = trace(scene, random, startCamera<float>(scene, filmX, filmY), tally);
+    const float time = scene.moving ? random.uniform() : 0;
+    const Rgbf radiance =
+        trace(scene, random, time, startCamera<float>(scene, filmX, filmY, &time), tally);
     film.splat(filmX, filmY, radiance);
     return luminance(radiance);
   }
@@ -34,11 +36,12 @@ class PathSampler final : public PixelSampler {
     return Rgbf(0);
   }
 
-  Rgbf trace(const Scene& scene, Random& random, PathRay<float> ray, SampleTally& tally) const {
+  Rgbf trace(const Scene& scene, Random& random, const float time, PathRay<float> ray,
+             SampleTally& tally) const {
     Rgbf radiance(0);
     for (int length = 1;; ++length) {
       // s = 0, t = length + 1
-      const PrimitiveId id = nextPrimitive(scene, ray, length == 1);
+      const PrimitiveId id = nextPrimitive(scene, ray, length == 1, time);
       const bool counts = length >= options_.minDepth;
       if (!id.valid()) {
         if (counts && scene.environment >= 0)
@@ -46,15 +49,16 @@ class PathSampler final : public PixelSampler {
               hitEnvironment<float>(scene, ray, length + 1, kUnidirectional), tally);
         return radiance;
       }
-      const PathVertex<float> vertex = arriveAt<float>(scene, ray, id);
+      const PathVertex<float> vertex = arriveAt<float>(scene, ray, id, &time);
       const int light = scene.shapes[id.shape].light;
       if (counts && light >= 0)
-        radiance += finiteOrCounted(
-            hitAreaLight<float>(scene, vertex, ray.direction, light, length + 1, kUnidirectional),
-            tally);
+        radiance += finiteOrCounted(hitAreaLight<float>(scene, vertex, ray.direction, light,
+                                                        length + 1, kUnidirectional, id, &time),
+                                    tally);
       if (length == options_.maxDepth) return radiance;
       // s = 1, a path one edge longer
-      if (length + 1 >= options_.minDepth) radiance += direct(scene, random, vertex, id, tally);
+      if (length + 1 >= options_.minDepth)
+        radiance += direct(scene, random, time, vertex, id, tally);
       const float u0 = random.uniform(), u1 = random.uniform();
       const LobeId lobe = chooseLobe(scene.bsdfs, materialAt(scene, id), vertex.point.uv, vertex.wi,
                                      u0, u1, random.uniform());
@@ -69,8 +73,8 @@ class PathSampler final : public PixelSampler {
     }
   }
 
-  static Rgbf direct(const Scene& scene, Random& random, const PathVertex<float>& vertex,
-                     PrimitiveId id, SampleTally& tally) {
+  static Rgbf direct(const Scene& scene, Random& random, const float time,
+                     const PathVertex<float>& vertex, PrimitiveId id, SampleTally& tally) {
     int light;
     PrimitiveId primitive;
     const float choice = random.uniform(), u0 = random.uniform(), u1 = random.uniform();
@@ -78,11 +82,12 @@ class PathSampler final : public PixelSampler {
         !pickLight(scene, choice, light, primitive))
       return Rgbf(0);
     DirectLight<float> sample;
-    const Rgbf value = finiteOrCounted(
-        connectToLight<float>(scene, vertex, id, light, primitive, u0, u1, kUnidirectional, sample),
-        tally);
+    const Rgbf value =
+        finiteOrCounted(connectToLight<float>(scene, vertex, id, light, primitive, u0, u1,
+                                              kUnidirectional, sample, &time),
+                        tally);
     const bool contributes = value.x > 0 || value.y > 0 || value.z > 0;
-    return contributes && lightVisible(scene, vertex.point, light, sample) ? value : Rgbf(0);
+    return contributes && lightVisible(scene, vertex.point, light, sample, time) ? value : Rgbf(0);
   }
 
   PathOptions options_;

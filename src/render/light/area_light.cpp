@@ -10,10 +10,15 @@ void AreaLight::prepare(std::span<const Shape> shapes) {
   area_ = static_cast<float>(totalArea(s));
   if (!(area_ >= std::numeric_limits<float>::min())) area_ = std::numeric_limits<float>::min();
   wraps_ = wrapsAround(s);
-  curved_ = std::holds_alternative<Sphere>(s.geometry);
-  const auto* mesh = std::get_if<TriangleMesh>(&s.geometry);
-  if (!mesh || mesh->parallelogram) return;
-  std::vector<double> areas(mesh->triangles.size());
+  moving_ = s.moves();
+  curved_ = moving_ || std::holds_alternative<Sphere>(s.geometry);
+  std::size_t count = 0;
+  if (const auto* still = std::get_if<TriangleMesh>(&s.geometry))
+    count = still->parallelogram ? 0 : still->triangles.size();
+  else if (const auto* moving = std::get_if<MovingMesh>(&s.geometry))
+    count = moving->parallelogram ? 0 : moving->triangles.size();
+  if (count == 0) return;
+  std::vector<double> areas(count);
   for (std::size_t i = 0; i < areas.size(); ++i)
     areas[i] = primitiveArea(s, static_cast<std::uint32_t>(i));
   triangles_ = DiscreteDistribution(areas);
@@ -31,19 +36,19 @@ PrimitiveId AreaLight::choosePrimitive(const LightContext&, float choice) const 
 
 bool AreaLight::invertDirect(const LightContext& context, PrimitiveId primitive,
                              const Vec3f& reference, const Vec3f& direction, float distance,
-                             Vec2f& u, float& choice) const {
+                             Vec2f& u, float& choice, const float* time) const {
   if (primitive.shape != static_cast<std::uint32_t>(shape)) return false;
   choice =
       triangles_.size() > 0 ? triangles_.invert(static_cast<int>(primitive.primitive), 0.5f) : 0.5f;
   return choice >= 0 &&
-         invertPrimitive(context.shapes, primitive, reference + direction * distance, u);
+         invertPrimitive(context.shapes, primitive, reference + direction * distance, u, time);
 }
 
 bool AreaLight::invertEmission(const LightContext& context, PrimitiveId primitive,
                                const Vec3f& origin, const Vec3f& direction, Vec2f& u, Vec2f& v,
-                               float& choice) const {
-  if (!invertDirect(context, primitive, origin, Vec3f(0), 0, u, choice)) return false;
-  const Vec3f normal = samplePrimitive<float>(context.shapes, primitive, u.x, u.y).ng;
+                               float& choice, const float* time) const {
+  if (!invertDirect(context, primitive, origin, Vec3f(0), 0, u, choice, time)) return false;
+  const Vec3f normal = samplePrimitive<float>(context.shapes, primitive, u.x, u.y, time).ng;
   const Vec3f local = Frame<float>::fromNormal(normal).toLocal(direction);
   if (!(local.z > 0)) return false;
   v = detail::invertUniformDisk(local.x, local.y);

@@ -10,6 +10,9 @@ namespace h2mc {
 
 // A shape that emits the same radiance in all directions, on the side of its normal. A texture may
 // vary the radiance; points are sampled uniformly by area all the same.
+//
+// On a shape that moves, a triangle is chosen by its mean area and a point uniformly on it as it is at
+// the moment. `time`, null otherwise, is that moment.
 struct AreaLight {
   TexturePtr radiance;
   int shape = -1;  // index of the shape that emits, set when the scene is read
@@ -24,23 +27,32 @@ struct AreaLight {
 
   template <class T>
   DirectLight<T> sampleDirect(const LightContext& context, PrimitiveId primitive,
-                              const Vec3<T>& reference, const T& u0, const T& u1) const;
+                              const Vec3<T>& reference, const T& u0, const T& u1,
+                              const T* time = nullptr) const;
   template <class T>
   EmittedRay<T> sampleEmission(const LightContext& context, PrimitiveId primitive, const T& u0,
-                               const T& u1, const T& v0, const T& v1) const;
+                               const T& u1, const T& v0, const T& v1,
+                               const T* time = nullptr) const;
   template <class T>
   LightHit<T> hit(const LightContext& context, const SurfacePoint<T>& point,
-                  const Vec3<T>& direction) const;
+                  const Vec3<T>& direction, PrimitiveId primitive = {},
+                  const T* time = nullptr) const;
 
   PrimitiveId choosePrimitive(const LightContext& context, float choice) const;
   bool invertDirect(const LightContext& context, PrimitiveId primitive, const Vec3f& reference,
-                    const Vec3f& direction, float distance, Vec2f& u, float& choice) const;
+                    const Vec3f& direction, float distance, Vec2f& u, float& choice,
+                    const float* time = nullptr) const;
   bool invertEmission(const LightContext& context, PrimitiveId primitive, const Vec3f& origin,
-                      const Vec3f& direction, Vec2f& u, Vec2f& v, float& choice) const;
+                      const Vec3f& direction, Vec2f& u, Vec2f& v, float& choice,
+                      const float* time = nullptr) const;
   unsigned wrapsDirect(const LightContext&) const { return wraps_ ? 2u : 0u; }
   unsigned wrapsEmission(const LightContext&) const { return wraps_ ? 10u : 8u; }
 
  private:
+  // What densities per area are multiplied by because the shape moves.
+  template <class T>
+  T densityFactor(const LightContext& context, PrimitiveId primitive, const T& time) const;
+
   // The frame of emitted directions around the geometric normal.
   template <class T>
   Vec3<T> aroundNormal(const Vec3<T>& normal, const Vec3<T>& local) const;
@@ -48,14 +60,34 @@ struct AreaLight {
   DiscreteDistribution triangles_;  // by area; empty for shapes that are sampled whole
   float area_ = 0;                  // until prepare()
   bool wraps_ = false;
-  bool curved_ = false;  // the geometric normal varies within a primitive
+  bool curved_ =
+      false;  // the geometric normal has derivatives: it varies within a primitive, or moves
+  bool moving_ = false;
 };
 
 template <class T>
-DirectLight<T> AreaLight::sampleDirect(const LightContext& context, PrimitiveId primitive,
-                                       const Vec3<T>& reference, const T& u0, const T& u1) const {
+T AreaLight::densityFactor(const LightContext& context, PrimitiveId primitive,
+                           const T& time) const {
   using S = Scalar<T>;
-  const SurfacePoint<T> point = samplePrimitive<T>(context.shapes, primitive, u0, u1);
+  const Shape& s = context.shapes[static_cast<std::size_t>(shape)];
+  const int index = static_cast<int>(primitive.primitive);
+  const S chosen = triangles_.size() > 0 ? S(triangles_.probability(index)) : S(1);
+  return T(chosen * S(area_)) / primitiveAreaAt<T>(s, primitive.primitive, &time);
+}
+
+// For what lights return.
+template <class Sampled, class T>
+void scaleDensities(Sampled& r, const T& factor) {
+  r.directPdf = r.directPdf * factor;
+  r.emissionPdf = r.emissionPdf * factor;
+}
+
+template <class T>
+DirectLight<T> AreaLight::sampleDirect(const LightContext& context, PrimitiveId primitive,
+                                       const Vec3<T>& reference, const T& u0, const T& u1,
+                                       const T* time) const {
+  using S = Scalar<T>;
+  const SurfacePoint<T> point = samplePrimitive<T>(context.shapes, primitive, u0, u1, time);
   DirectLight<T> r;
   r.position = value3(point.p);
   r.normal = value3(point.ng);
@@ -84,6 +116,7 @@ DirectLight<T> AreaLight::sampleDirect(const LightContext& context, PrimitiveId 
     r.radiance = lift<T>(Vec3<S>(0));
     r.emissionPdf = T(S(0));
   }
+  if (moving_) scaleDensities(r, densityFactor(context, primitive, *time));
   return r;
 }
 
@@ -97,9 +130,10 @@ Vec3<T> AreaLight::aroundNormal(const Vec3<T>& normal, const Vec3<T>& local) con
 
 template <class T>
 EmittedRay<T> AreaLight::sampleEmission(const LightContext& context, PrimitiveId primitive,
-                                        const T& u0, const T& u1, const T& v0, const T& v1) const {
+                                        const T& u0, const T& u1, const T& v0, const T& v1,
+                                        const T* time) const {
   using S = Scalar<T>;
-  const SurfacePoint<T> point = samplePrimitive<T>(context.shapes, primitive, u0, u1);
+  const SurfacePoint<T> point = samplePrimitive<T>(context.shapes, primitive, u0, u1, time);
   const Vec2<T> d = detail::uniformDisk(v0, v1);
   EmittedRay<T> r;
   r.cosLight = safeSqrt(T(S(1) - v0));
@@ -109,12 +143,13 @@ EmittedRay<T> AreaLight::sampleEmission(const LightContext& context, PrimitiveId
   r.power = modulate<T>(*radiance, point.uv, r.cosLight);
   r.emissionPdf = r.cosLight * S(kInvPi / area_);
   r.directPdf = T(S(1 / area_));
+  if (moving_) scaleDensities(r, densityFactor(context, primitive, *time));
   return r;
 }
 
 template <class T>
-LightHit<T> AreaLight::hit(const LightContext&, const SurfacePoint<T>& point,
-                           const Vec3<T>& direction) const {
+LightHit<T> AreaLight::hit(const LightContext& context, const SurfacePoint<T>& point,
+                           const Vec3<T>& direction, PrimitiveId primitive, const T* time) const {
   using S = Scalar<T>;
   LightHit<T> r;
   r.directPdf = T(S(1 / area_));
@@ -126,6 +161,7 @@ LightHit<T> AreaLight::hit(const LightContext&, const SurfacePoint<T>& point,
     r.radiance = lift<T>(Vec3<S>(0));
     r.emissionPdf = T(S(0));
   }
+  if (moving_) scaleDensities(r, densityFactor(context, primitive, *time));
   return r;
 }
 

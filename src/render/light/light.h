@@ -56,6 +56,25 @@ namespace h2mc {
 using Light =
     std::variant<AreaLight, PointLight, SpotLight, DirectionalLight, ConstantLight, EnvmapLight>;
 
+// sampleDirect and sampleEmission at a moment of the shutter's opening, which only area lights know of.
+// `time` may be null where the light's shape does not move.
+template <class T, class L>
+DirectLight<T> sampleDirectAt(const L& light, const LightContext& context, PrimitiveId primitive,
+                              const Vec3<T>& reference, const T& u0, const T& u1, const T* time) {
+  if constexpr (std::is_same_v<L, AreaLight>)
+    return light.template sampleDirect<T>(context, primitive, reference, u0, u1, time);
+  else
+    return light.template sampleDirect<T>(context, primitive, reference, u0, u1);
+}
+template <class T, class L>
+EmittedRay<T> sampleEmissionAt(const L& light, const LightContext& context, PrimitiveId primitive,
+                               const T& u0, const T& u1, const T& v0, const T& v1, const T* time) {
+  if constexpr (std::is_same_v<L, AreaLight>)
+    return light.template sampleEmission<T>(context, primitive, u0, u1, v0, v1, time);
+  else
+    return light.template sampleEmission<T>(context, primitive, u0, u1, v0, v1);
+}
+
 // Tells area lights about the shapes they stand on. Call once, when the scene's shapes are in place
 // and AreaLight::shape is set, before any other use.
 void prepareLights(std::span<Light> lights, std::span<const Shape> shapes);

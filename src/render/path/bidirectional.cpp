@@ -20,7 +20,7 @@ BidirectionalSampler::BidirectionalSampler(int maxLength)
 void BidirectionalSampler::draw(const Scene& scene, Random& random, float filmX, float filmY,
                                 const Path* given) {
   // Coordinates are drawn where they are first needed, in an order that the random stream alone
-  // fixes: camera subpath, light subpath, then a light for each camera vertex.
+  // fixes: time, camera subpath, light subpath, then a light for each camera vertex.
   const Technique own = given ? given->technique : Technique{0, 1};
   const auto scatter = [&](Path& path, int coordinate, int choice, bool known, int knownCoordinate,
                            int knownChoice) {
@@ -31,6 +31,9 @@ void BidirectionalSampler::draw(const Scene& scene, Random& random, float filmX,
     sample.choice[at(choice)] = known ? given->sample.choice[at(knownChoice)] : random.uniform();
   };
 
+  float time = 0;
+  if (scene.moving) time = given ? given->sample.time : random.uniform();
+  cameraPath_.sample.time = lightPath_.sample.time = time;
   Path& camera = cameraPath_;
   camera.sample.u[0] = filmX_ = filmX < 0 ? random.uniform() : filmX;
   camera.sample.u[1] = filmY_ = filmY < 0 ? random.uniform() : filmY;
@@ -91,7 +94,8 @@ bool BidirectionalSampler::join(const Scene& scene, Connection& connection, int&
             lightPath_.lightIndex,
             lightPath_.lightPrimitive,
             0,
-            0};
+            0,
+            cameraPath_.sample.time};
   if (s == 1) {
     const Direct& direct = direct_[at(t) - 1];
     if (!pickLight(scene, direct.choice, ends.lightIndex, ends.lightPrimitive)) return false;
@@ -111,6 +115,7 @@ bool BidirectionalSampler::join(const Scene& scene, Connection& connection, int&
 PrimarySample BidirectionalSampler::primarySample(const Technique& technique) const {
   const auto [s, t] = technique;
   PrimarySample sample;
+  sample.time = cameraPath_.sample.time;
   const auto copy = [](auto& to, int toIndex, const auto& from, int fromIndex, int count) {
     std::copy_n(from.begin() + fromIndex, count, to.begin() + toIndex);
   };

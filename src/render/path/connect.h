@@ -35,12 +35,15 @@ T powerWeight(const T& a, const T& b) {
   return (scale * scale) / (x * x + y * y + scale * scale);
 }
 
-// s = 0: the camera subpath has arrived at the area light `light`.
+// s = 0: the camera subpath has arrived at the area light `light`, on its primitive `id`
+// (which only matters if the light moves).
 template <class T>
 Contribution<T> hitAreaLight(const Scene& scene, const PathVertex<T>& vertex,
-                             const Vec3<T>& direction, int light, int t, Techniques techniques) {
+                             const Vec3<T>& direction, int light, int t, Techniques techniques,
+                             PrimitiveId id = {}, const std::type_identity_t<T>* time = nullptr) {
   const auto& l = std::get<AreaLight>(scene.lights[static_cast<std::size_t>(light)]);
-  const LightHit<T> hit = l.template hit<T>(scene.lightContext(), vertex.point, direction);
+  const LightHit<T> hit =
+      l.template hit<T>(scene.lightContext(), vertex.point, direction, id, time);
   Contribution<T> c{hit.radiance * vertex.throughput, T(1)};
   if (t == 2 || c.zero()) return c;
   const Scalar<T> pick = scene.lightPicker.probability(light);
@@ -76,11 +79,12 @@ Contribution<T> hitEnvironment(const Scene& scene, const PathRay<T>& ray, int t,
 template <class T>
 Contribution<T> connectToLight(const Scene& scene, const PathVertex<T>& vertex, PrimitiveId id,
                                int light, PrimitiveId primitive, const T& u0, const T& u1,
-                               Techniques techniques, DirectLight<T>& direct) {
+                               Techniques techniques, DirectLight<T>& direct,
+                               const std::type_identity_t<T>* time = nullptr) {
   return std::visit(
       [&](const auto& l) -> Contribution<T> {
         direct =
-            l.template sampleDirect<T>(scene.lightContext(), primitive, vertex.point.p, u0, u1);
+            sampleDirectAt<T>(l, scene.lightContext(), primitive, vertex.point.p, u0, u1, time);
         if (!(value(direct.directPdf) > 0)) return Contribution<T>::none();
         const Vec3<T> wo = vertex.point.shading.toLocal(direct.direction);
         const BsdfValue<T> e =
@@ -133,22 +137,24 @@ Contribution<T> connectVertices(const Scene& scene, const PathVertex<T>& camera,
 
 // t = 1, s >= 2: the light subpath's last vertex is seen by the camera.
 template <class T>
-Contribution<T> connectToCamera(const Scene& scene, const PathVertex<T>& light, PrimitiveId id) {
-  const Vec3<Scalar<T>> eye = plain<T>(scene.camera.position());
-  const Vec3<T> edge = light.point.p - eye;
-  const T inverse2 = T(1) / length2(edge);
-  const Vec3<T> fromCamera = edge * sqrt(inverse2);
-  const T cosine = scene.camera.cosine(fromCamera);
-  if (!(value(cosine) > 0)) return Contribution<T>::none();
-  const Vec3<T> wi = light.point.shading.toLocal(-fromCamera);
-  const BsdfValue<T> e =
-      evaluateMaterial<T>(scene.bsdfs, materialAt(scene, id), light.point.uv, wi, light.wi);
-  const T cosHere = abs(dot(light.point.ng, fromCamera));
-  const T cameraPdf = scene.camera.pdf(cosine) * cosHere * inverse2;  // per area
-  Contribution<T> c{light.throughput * e.value * (cameraPdf / light.cosIn), T(1)};
-  if (c.zero()) return c;
-  c.weight = powerWeight(cameraPdf * rootOfSquares(light.vcm, light.vc * e.pdf), T(0));
-  return c;
+Contribution<T> connectToCamera(const Scene& scene, const PathVertex<T>& light, PrimitiveId id,
+                                const std::type_identity_t<T>* time = nullptr) {
+  return withCameraPose<T>(scene, time, [&](const auto& pose) {
+    const Vec3<T> edge = light.point.p - pose.position;
+    const T inverse2 = T(1) / length2(edge);
+    const Vec3<T> fromCamera = edge * sqrt(inverse2);
+    const T cosine = dot(pose.forward, fromCamera);
+    if (!(value(cosine) > 0)) return Contribution<T>::none();
+    const Vec3<T> wi = light.point.shading.toLocal(-fromCamera);
+    const BsdfValue<T> e =
+        evaluateMaterial<T>(scene.bsdfs, materialAt(scene, id), light.point.uv, wi, light.wi);
+    const T cosHere = abs(dot(light.point.ng, fromCamera));
+    const T cameraPdf = scene.camera.pdf(cosine) * cosHere * inverse2;  // per area
+    Contribution<T> c{light.throughput * e.value * (cameraPdf / light.cosIn), T(1)};
+    if (c.zero()) return c;
+    c.weight = powerWeight(cameraPdf * rootOfSquares(light.vcm, light.vc * e.pdf), T(0));
+    return c;
+  });
 }
 
 }  // namespace h2mc

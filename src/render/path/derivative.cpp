@@ -15,14 +15,23 @@ extern template struct LogTarget<10>;
 extern template struct LogTarget<12>;
 extern template struct LogTarget<14>;
 extern template struct LogTarget<16>;
+extern template struct MovingLogTarget<4>;
+extern template struct MovingLogTarget<6>;
+extern template struct MovingLogTarget<8>;
+extern template struct MovingLogTarget<10>;
+extern template struct MovingLogTarget<12>;
+extern template struct MovingLogTarget<14>;
+extern template struct MovingLogTarget<16>;
+extern template struct MovingLogTarget<18>;
 }  // namespace growing
 
 namespace {
 
+// The first result.dimension of the N coordinates.
 template <int N>
 void store(const ad::Dual2<float, N>& value, Derivative& result) {
   result.logTarget = value.v;
-  for (int i = 0, k = 0; i < N; ++i) {
+  for (int i = 0, k = 0; i < result.dimension; ++i) {
     result.gradient[i] = value.gradient(i);
     for (int j = 0; j <= i; ++j, ++k) result.hessian[k] = value.hessian(i, j);
   }
@@ -30,12 +39,20 @@ void store(const ad::Dual2<float, N>& value, Derivative& result) {
 
 template <int N>
 bool dispatch(const Scene& scene, const Path& path, Derivative& result) {
-  if constexpr (N > kMaxDerivativeDimension) {
+  if constexpr (N > kMaxDerivativeDimension + 1) {
     return false;
   } else {
-    if (result.dimension != N) return dispatch<N + 2>(scene, path, result);
-    store<N>(growing::LogTarget<N>::evaluate(scene, path), result);
-    return true;
+    if (path.moving && result.dimension + 1 == N) {
+      if constexpr (N >= 4) store<N>(growing::MovingLogTarget<N>::evaluate(scene, path), result);
+      return true;
+    }
+    if constexpr (N <= kMaxDerivativeDimension) {
+      if (result.dimension == N) {
+        store<N>(growing::LogTarget<N>::evaluate(scene, path), result);
+        return true;
+      }
+    }
+    return dispatch<N + 2>(scene, path, result);
   }
 }
 
@@ -50,7 +67,7 @@ bool Derivative::finite() const {
 }
 
 bool differentiate(const Scene& scene, const Path& path, Derivative& result) {
-  result.dimension = path.technique.dimension();
+  result.dimension = path.dimension();
   return dispatch<2>(scene, path, result);
 }
 

@@ -12,8 +12,8 @@
 
 namespace h2mc {
 
-// Most coordinates of the plain form: paths of up to 8 edges.
-inline constexpr int kMaxDerivativeDimension = 16;
+// Most coordinates of the plain form: paths of up to 8 edges, and time.
+inline constexpr int kMaxDerivativeDimension = 17;
 
 struct Derivative {
   int dimension = 0;
@@ -26,7 +26,8 @@ struct Derivative {
 };
 
 // d log(path.target) at path.sample, with the topology (triangles, lobes, light, visibility) frozen.
-// False when path.technique.dimension() > kMaxDerivativeDimension. Precondition: path.target > 0.
+// result.dimension is path.dimension(): where the path depends on time, that is the last coordinate.
+// False when path.dimension() > kMaxDerivativeDimension. Precondition: path.target > 0.
 bool differentiate(const Scene& scene, const Path& path, Derivative& result);
 
 }  // namespace h2mc

@@ -13,11 +13,11 @@ using Dual = ad::Dual2<double, 2 * kBlock>;
 }  // namespace
 
 ad::DerivativeValues differentiateInDouble(const Scene& scene, const Path& path, const double* u) {
-  const int n = path.technique.dimension(), blocks = (n + kBlock - 1) / kBlock;
+  const int n = path.dimension(), blocks = (n + kBlock - 1) / kBlock;
   ad::DerivativeValues result;
   result.gradient.resize(static_cast<std::size_t>(n));
   result.hessian.resize(static_cast<std::size_t>(n) * static_cast<std::size_t>(n + 1) / 2);
-  Dual x[2 * kMaxPathLength];
+  Dual x[kMostCoordinates];
   for (int a = 0; a < blocks; ++a) {
     // Every pair; all of them hold each block's own entries. A single block has an empty partner.
     for (int b = a + 1; b < std::max(blocks, 2); ++b) {
@@ -26,7 +26,7 @@ ad::DerivativeValues differentiateInDouble(const Scene& scene, const Path& path,
         return block == a ? i % kBlock : block == b ? kBlock + i % kBlock : -1;
       };
       for (int i = 0; i < n; ++i) x[i] = lane(i) >= 0 ? Dual::variable(u[i], lane(i)) : Dual(u[i]);
-      const Dual y = replayLogTarget<Dual>(scene, path, x);
+      const Dual y = replayWithTime<Dual>(scene, path, x);
       result.value = y.v;
       for (int i = 0; i < n; ++i) {
         if (lane(i) < 0) continue;

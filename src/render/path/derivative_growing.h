@@ -1,5 +1,7 @@
 // The plain whole-path derivative, growing along the path. Instantiated once for each number of
 // coordinates (derivative_instance.cpp.in), so that no file takes long to compile.
+//
+// Time is a coordinate of every vertex from the first on: where a path depends on it, nothing grows.
 #pragma once
 
 #include "ad/dual2.h"
@@ -137,6 +139,22 @@ Dual<N> evaluateTechnique(const Scene& scene, const Path& path) {
 template <int N>
 Dual<N> LogTarget<N>::evaluate(const Scene& scene, const Path& path) {
   return evaluateTechnique<N, 0>(scene, path);
+}
+
+// The log target of a path that depends on time, with N - 2 coordinates of its own, then time, and one
+// that nothing depends on, so that only even numbers are compiled.
+template <int N>
+struct MovingLogTarget {
+  static Dual<N> evaluate(const Scene& scene, const Path& path);
+};
+
+template <int N>
+Dual<N> MovingLogTarget<N>::evaluate(const Scene& scene, const Path& path) {
+  Dual<N> u[N - 2];
+  for (int i = 0; i < N - 2; ++i)
+    u[i] = Dual<N>::variable(path.sample.u[static_cast<std::size_t>(i)], i);
+  const Dual<N> time = Dual<N>::variable(path.sample.time, N - 2);
+  return replayLogTarget<Dual<N>>(scene, path, u, &time);
 }
 
 }  // namespace h2mc::growing

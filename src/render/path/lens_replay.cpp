@@ -47,7 +47,8 @@ void differentiateLens(const Scene& scene, const Path& path, int reconnection, D
   const Technique technique = path.technique;
   const int last = technique.t - 1;
   const float* u = path.sample.u.data();
-  PathRay<T> ray = startCamera<T>(scene, T::variable(u[0], 0), T::variable(u[1], 1));
+  const T time(path.sample.time);
+  PathRay<T> ray = startCamera<T>(scene, T::variable(u[0], 0), T::variable(u[1], 1), &time);
   PathVertex<T> camera{}, light{};
   T logDensity(0);  // of the vertices whose sampling the film position changes, per area
   for (int i = 1; i <= last; ++i) {
@@ -69,7 +70,7 @@ void differentiateLens(const Scene& scene, const Path& path, int reconnection, D
     const bool escapes = path.escaped && i == last;
     if (!escapes) {
       camera = stays ? arriveAtPoint(ray, constant(traced.vertex.point))
-                     : arriveAt<T>(scene, ray, traced.id);
+                     : arriveAt<T>(scene, ray, traced.id, &time);
     }
     if (stays && i <= reconnection + 2)
       logDensity = logDensity - log(escapes ? ray.vcm : camera.vcm);
@@ -77,7 +78,7 @@ void differentiateLens(const Scene& scene, const Path& path, int reconnection, D
   if (technique.s >= 2) light = constant(path.light[at(technique.s) - 1].vertex);
   const int offset = technique.lightOffset();
   const T direct[2] = {T(u[offset]), T(u[offset + 1])};
-  const T value = joinedLogTarget<T>(scene, path, ray, camera, light, direct) + logDensity;
+  const T value = joinedLogTarget<T>(scene, path, ray, camera, light, direct, &time) + logDensity;
 
   result.dimension = 2;
   result.logTarget = value.v;

@@ -58,42 +58,62 @@ RaySeconds::RaySeconds(bool on) {
 }
 RaySeconds::~RaySeconds() { raySeconds = nullptr; }
 
-PrimitiveId nextPrimitive(const Scene& scene, const PathRay<float>& ray, bool fromCamera) {
+PrimitiveId nextPrimitive(const Scene& scene, const PathRay<float>& ray, bool fromCamera,
+                          float time) {
   float nearest = 0, farthest = RayTracer::kFar;
   if (fromCamera) {
-    const float cosine = scene.camera.cosine(ray.direction);
+    const float cosine = dot(scene.camera.poseOf(time).forward, ray.direction);
     nearest = scene.camera.nearClip / cosine;
     farthest = scene.camera.farClip / cosine;
   }
   return timedQuery([&] {
-    return scene.tracer->intersect(ray.origin, ray.originNormal, ray.direction, nearest, farthest);
+    return scene.tracer->intersect(ray.origin, ray.originNormal, ray.direction, nearest, farthest,
+                                   time);
   });
 }
 
-bool pointEscapes(const Scene& scene, const SurfacePoint<float>& point, const Vec3f& direction) {
-  return timedQuery([&] { return scene.tracer->escapes(point.p, point.ng, direction); });
+bool pointEscapes(const Scene& scene, const SurfacePoint<float>& point, const Vec3f& direction,
+                  float time) {
+  return timedQuery([&] { return scene.tracer->escapes(point.p, point.ng, direction, time); });
 }
 
-bool pointsVisible(const Scene& scene, const SurfacePoint<float>& a, const SurfacePoint<float>& b) {
-  return timedQuery([&] { return scene.tracer->visible(a.p, a.ng, b.p, b.ng); });
+bool pointsVisible(const Scene& scene, const SurfacePoint<float>& a, const SurfacePoint<float>& b,
+                   float time) {
+  return timedQuery([&] { return scene.tracer->visible(a.p, a.ng, b.p, b.ng, time); });
 }
 
 bool lightVisible(const Scene& scene, const SurfacePoint<float>& point, int light,
-                  const DirectLight<float>& direct) {
+                  const DirectLight<float>& direct, float time) {
   const Light& l = scene.lights[static_cast<std::size_t>(light)];
   if (std::visit([](const auto& x) { return x.isInfinite(); }, l))
-    return pointEscapes(scene, point, direct.direction);
-  return timedQuery(
-      [&] { return scene.tracer->visible(point.p, point.ng, direct.position, direct.normal); });
+    return pointEscapes(scene, point, direct.direction, time);
+  return timedQuery([&] {
+    return scene.tracer->visible(point.p, point.ng, direct.position, direct.normal, time);
+  });
 }
 
-bool cameraVisible(const Scene& scene, const SurfacePoint<float>& point, float& filmX,
+bool cameraVisible(const Scene& scene, const SurfacePoint<float>& point, float time, float& filmX,
                    float& filmY) {
-  const Vec3f fromCamera = point.p - scene.camera.position();
-  return withinClip(scene.camera, dot(scene.camera.forward(), fromCamera)) &&
-         scene.camera.project(fromCamera, filmX, filmY) && timedQuery([&] {
-           return scene.tracer->visible(point.p, point.ng, scene.camera.position(), Vec3f(0));
+  const CameraPose<float> pose = scene.camera.poseOf(time);
+  const Vec3f fromCamera = point.p - pose.position;
+  return withinClip(scene.camera, dot(pose.forward, fromCamera)) &&
+         scene.camera.project(pose, fromCamera, filmX, filmY) && timedQuery([&] {
+           return scene.tracer->visible(point.p, point.ng, pose.position, Vec3f(0), time);
          });
+}
+
+bool touchesMotion(const Scene& scene, const Path& path) {
+  if (!scene.moving) return false;
+  if (scene.camera.moves()) return true;
+  const auto moves = [&](const TracedVertex& v) { return scene.shapes[v.id.shape].moves(); };
+  const auto [s, t] = path.technique;
+  const int cameraEnd = path.escaped ? t - 1 : t;
+  for (int i = 1; i < cameraEnd; ++i)
+    if (moves(path.camera[static_cast<std::size_t>(i)])) return true;
+  for (int i = 1; i < s; ++i)
+    if (moves(path.light[static_cast<std::size_t>(i)])) return true;
+  // Lights that are no shape stand still.
+  return s >= 1 && path.lightPrimitive.valid() && scene.shapes[path.lightPrimitive.shape].moves();
 }
 
 Step stepCamera(const Scene& scene, Path& path, int i) {
@@ -102,7 +122,7 @@ Step stepCamera(const Scene& scene, Path& path, int i) {
   if (i == 1) {
     path.filmX = path.sample.u[0];
     path.filmY = path.sample.u[1];
-    ray = startCamera<float>(scene, path.filmX, path.filmY);
+    ray = startCamera<float>(scene, path.filmX, path.filmY, &path.sample.time);
   } else {
     ray = scatter(scene, path, path.camera[static_cast<std::size_t>(i) - 1],
                   technique.cameraCoordinate(i - 1),
@@ -112,9 +132,9 @@ Step stepCamera(const Scene& scene, Path& path, int i) {
   }
   path.lastRay = ray;
   TracedVertex& v = path.camera[static_cast<std::size_t>(i)];
-  v.id = nextPrimitive(scene, ray, i == 1);
+  v.id = nextPrimitive(scene, ray, i == 1, path.sample.time);
   if (!v.id.valid()) return Step::kEscaped;
-  v.vertex = arriveAt<float>(scene, ray, v.id);
+  v.vertex = arriveAt<float>(scene, ray, v.id, &path.sample.time);
   return Step::kArrived;
 }
 
@@ -145,7 +165,8 @@ Step stepLight(const Scene& scene, Path& path, int i) {
   PathRay<float> ray;
   if (i == 1) {
     const float* u = path.sample.u.data() + technique.lightOffset();
-    ray = startLight<float>(scene, path.lightIndex, path.lightPrimitive, u[0], u[1], u[2], u[3]);
+    ray = startLight<float>(scene, path.lightIndex, path.lightPrimitive, u[0], u[1], u[2], u[3],
+                            &path.sample.time);
   } else {
     ray = scatter(
         scene, path, path.light[static_cast<std::size_t>(i) - 1], technique.lightCoordinate(i - 1),
@@ -153,9 +174,9 @@ Step stepLight(const Scene& scene, Path& path, int i) {
   }
   if (dark(ray.throughput)) return Step::kDead;
   TracedVertex& v = path.light[static_cast<std::size_t>(i)];
-  v.id = nextPrimitive(scene, ray, false);
+  v.id = nextPrimitive(scene, ray, false, path.sample.time);
   if (!v.id.valid()) return Step::kEscaped;
-  v.vertex = arriveAt<float>(scene, ray, v.id);
+  v.vertex = arriveAt<float>(scene, ray, v.id, &path.sample.time);
   return Step::kArrived;
 }
 
@@ -190,25 +211,27 @@ Joined join(const Scene& scene, const Ends& ends) {
     const int light = scene.shapes[ends.camera->id.shape].light;
     if (light < 0) return joined;
     const PathVertex<float>& v = ends.camera->vertex;
-    finish(hitAreaLight<float>(scene, v, -v.point.shading.toWorld(v.wi), light, t, kBoth), joined);
+    finish(hitAreaLight<float>(scene, v, -v.point.shading.toWorld(v.wi), light, t, kBoth,
+                               ends.camera->id, &ends.time),
+           joined);
     return joined;
   }
   if (s == 1) {
     DirectLight<float> direct;
     finish(connectToLight<float>(scene, ends.camera->vertex, ends.camera->id, ends.lightIndex,
-                                 ends.lightPrimitive, ends.u0, ends.u1, kBoth, direct),
+                                 ends.lightPrimitive, ends.u0, ends.u1, kBoth, direct, &ends.time),
            joined);
     if (dark(joined.contribution)) return joined;
-    visible = lightVisible(scene, ends.camera->vertex.point, ends.lightIndex, direct);
+    visible = lightVisible(scene, ends.camera->vertex.point, ends.lightIndex, direct, ends.time);
   } else if (t == 1) {
-    finish(connectToCamera<float>(scene, ends.light->vertex, ends.light->id), joined);
+    finish(connectToCamera<float>(scene, ends.light->vertex, ends.light->id, &ends.time), joined);
     if (dark(joined.contribution)) return joined;
-    visible = cameraVisible(scene, ends.light->vertex.point, joined.filmX, joined.filmY);
+    visible = cameraVisible(scene, ends.light->vertex.point, ends.time, joined.filmX, joined.filmY);
   } else {
     const TracedVertex &camera = *ends.camera, &light = *ends.light;
     finish(connectVertices<float>(scene, camera.vertex, camera.id, light.vertex, light.id), joined);
     if (dark(joined.contribution)) return joined;
-    visible = pointsVisible(scene, camera.vertex.point, light.vertex.point);
+    visible = pointsVisible(scene, camera.vertex.point, light.vertex.point, ends.time);
   }
   if (!visible) joined.contribution = Rgbf(0);
   return joined;
@@ -220,9 +243,9 @@ bool joinSubpaths(const Scene& scene, Path& path) {
   const TracedVertex* camera = &path.camera[static_cast<std::size_t>(t) - 1];
   const TracedVertex* light = s >= 2 ? &path.light[static_cast<std::size_t>(s) - 1] : nullptr;
   const bool direct = s == 1;
-  const Joined joined =
-      join(scene, {path.technique, path.escaped ? nullptr : camera, light, &path.lastRay,
-                   path.lightIndex, path.lightPrimitive, direct ? u[0] : 0, direct ? u[1] : 0});
+  const Joined joined = join(scene, {path.technique, path.escaped ? nullptr : camera, light,
+                                     &path.lastRay, path.lightIndex, path.lightPrimitive,
+                                     direct ? u[0] : 0, direct ? u[1] : 0, path.sample.time});
   if (s == 0)
     path.lightIndex = path.escaped ? scene.environment : scene.shapes[camera->id.shape].light;
   if (t == 1) {
@@ -232,6 +255,7 @@ bool joinSubpaths(const Scene& scene, Path& path) {
   path.finite = joined.finite;
   path.contribution = joined.contribution;
   path.target = luminance(joined.contribution);
+  path.moving = touchesMotion(scene, path);
   return path.target > 0;
 }
 

@@ -31,12 +31,16 @@ struct Path {
   bool escaped = false;      // s = 0 and the last edge leaves the scene: camera[t - 1] is not there
   PathRay<float> lastRay;    // that edge, or the one that has hit a light
   CoordinateMask wraps = 0;  // coordinates that are angles, or that nothing depends on
+  bool moving = false;       // anything that it touches moves: it depends on sample.time
 
   // Result.
   float filmX = 0, filmY = 0;
   Rgbf contribution{0};  // MIS weighted, over the technique's density in its primary space
   float target = 0;      // luminance of the contribution; what a chain samples in proportion to
   bool finite = true;    // false: not finite, or negative; contribution and target are then zero
+
+  // Continuous coordinates that it depends on: the technique's, then time where it is `moving`.
+  int dimension() const { return technique.dimension() + (moving ? 1 : 0); }
 };
 
 // Traces `path.technique` at `path.sample` and fills in the rest. Returns target > 0.
@@ -57,6 +61,8 @@ enum class Step { kArrived, kEscaped, kDead };
 // the light, whose choice has been made by pickLight). kEscaped leaves the edge in path.lastRay.
 Step stepCamera(const Scene& scene, Path& path, int i);
 Step stepLight(const Scene& scene, Path& path, int i);
+// Whether any of the path's vertices, its light or the camera moves.
+bool touchesMotion(const Scene& scene, const Path& path);
 // The light and its primitive by path.sample's choice coordinate; false when there is no light.
 bool pickLight(const Scene& scene, float choice, int& light, PrimitiveId& primitive);
 
@@ -69,6 +75,7 @@ struct Ends {
   int lightIndex;              // s >= 1
   PrimitiveId lightPrimitive;  // s = 1
   float u0, u1;                // s = 1
+  float time;                  // as in PrimarySample
 };
 struct Joined {
   Rgbf contribution{0};
@@ -80,16 +87,19 @@ Joined join(const Scene& scene, const Ends& ends);
 
 // Shadow rays: whether `point` sees the light along its direct sample.
 bool lightVisible(const Scene& scene, const SurfacePoint<float>& point, int light,
-                  const DirectLight<float>& direct);
+                  const DirectLight<float>& direct, float time);
 // Whether the camera sees `point`, and where on the film.
-bool cameraVisible(const Scene& scene, const SurfacePoint<float>& point, float& filmX,
+bool cameraVisible(const Scene& scene, const SurfacePoint<float>& point, float time, float& filmX,
                    float& filmY);
 
-bool pointEscapes(const Scene& scene, const SurfacePoint<float>& point, const Vec3f& direction);
-bool pointsVisible(const Scene& scene, const SurfacePoint<float>& a, const SurfacePoint<float>& b);
+bool pointEscapes(const Scene& scene, const SurfacePoint<float>& point, const Vec3f& direction,
+                  float time = 0);
+bool pointsVisible(const Scene& scene, const SurfacePoint<float>& a, const SurfacePoint<float>& b,
+                   float time = 0);
 
 // The first primitive along a ray; rays from the camera end at its clipping planes.
-PrimitiveId nextPrimitive(const Scene& scene, const PathRay<float>& ray, bool fromCamera);
+PrimitiveId nextPrimitive(const Scene& scene, const PathRay<float>& ray, bool fromCamera,
+                          float time);
 
 // While one exists with `on`, the seconds that this thread spends in Embree are added up. Not nested.
 class RaySeconds {

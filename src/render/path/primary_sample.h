@@ -37,9 +37,12 @@ struct Technique {
 // the film position and two for each scattering of the camera subpath; then, for s = 1, two that
 // place the point on the light, for s >= 2 four that place and direct the emitted ray and two for
 // each scattering. `choice` holds the discrete decisions: lobes, and the light with its primitive.
+// Where anything in the scene moves, `time` is one more continuous coordinate, of every technique: it
+// is drawn uniformly whatever the technique, so that it is in no density that MIS compares.
 struct PrimarySample {
   std::array<float, 2 * kMaxPathLength> u;
   std::array<float, kMaxPathLength + 1> choice;
+  float time = 0;  // the moment of the shutter's opening; 0 in a scene in which nothing moves
 };
 
 // Coordinates where 0 and 1 are the same point, as bits.

@@ -6,10 +6,12 @@
 namespace h2mc {
 
 // The log of the target (luminance of the MIS-weighted contribution over its density) as a function
-// of all of the path's primary coordinates `u`, in the scalar T. The oracle for derivatives: T =
-// double and finite differences, or a dual with every coordinate active from the start.
+// of all of the path's primary coordinates `u`, in the scalar T, and of time (which may be null if
+// !path.moving). The oracle for derivatives: T = double and finite differences, or a dual with every
+// coordinate active from the start.
 template <class T>
-T replayLogTarget(const Scene& scene, const Path& path, const T* u);
+T replayLogTarget(const Scene& scene, const Path& path, const T* u,
+                  const std::type_identity_t<T>* time = nullptr);
 
 // The camera subpath's last ray and vertex, the light subpath's last vertex.
 template <class T>
@@ -24,7 +26,8 @@ PathRay<T> replayScatter(const Scene& scene, const Path& path, Side side, int in
 // coordinates where s = 1. Vertices that the technique lacks are not looked at.
 template <class T>
 T joinedLogTarget(const Scene& scene, const Path& path, const PathRay<T>& cameraRay,
-                  const PathVertex<T>& camera, const PathVertex<T>& light, const T* u) {
+                  const PathVertex<T>& camera, const PathVertex<T>& light, const T* u,
+                  const std::type_identity_t<T>* time = nullptr) {
   const auto [s, t] = path.technique;
   const PrimitiveId cameraId = path.camera[static_cast<std::size_t>(t) - 1].id;
   const PrimitiveId lightId =
@@ -32,15 +35,15 @@ T joinedLogTarget(const Scene& scene, const Path& path, const PathRay<T>& camera
   constexpr auto kBoth = Techniques::kBidirectional;
   Contribution<T> c;
   if (s == 0) {
-    c = path.escaped
-            ? hitEnvironment<T>(scene, cameraRay, t, kBoth)
-            : hitAreaLight<T>(scene, camera, cameraRay.direction, path.lightIndex, t, kBoth);
+    c = path.escaped ? hitEnvironment<T>(scene, cameraRay, t, kBoth)
+                     : hitAreaLight<T>(scene, camera, cameraRay.direction, path.lightIndex, t,
+                                       kBoth, cameraId, time);
   } else if (s == 1) {
     DirectLight<T> direct;
     c = connectToLight<T>(scene, camera, cameraId, path.lightIndex, path.lightPrimitive, u[0], u[1],
-                          kBoth, direct);
+                          kBoth, direct, time);
   } else if (t == 1) {
-    c = connectToCamera<T>(scene, light, lightId);
+    c = connectToCamera<T>(scene, light, lightId, time);
   } else {
     c = connectVertices<T>(scene, camera, cameraId, light, lightId);
   }
@@ -52,34 +55,41 @@ T joinedLogTarget(const Scene& scene, const Path& path, const PathRay<T>& camera
 }
 
 template <class T>
-T replayLogTarget(const Scene& scene, const Path& path, const T* u) {
+T replayLogTarget(const Scene& scene, const Path& path, const T* u,
+                  const std::type_identity_t<T>* time) {
   const Technique& technique = path.technique;
   PathRay<T> ray{};
   PathVertex<T> camera{}, light{};
   if (technique.t >= 2) {
-    ray = startCamera<T>(scene, u[0], u[1]);
+    ray = startCamera<T>(scene, u[0], u[1], time);
     for (int i = 1; i < technique.t; ++i) {
       if (i > 1) {
         const T* v = u + technique.cameraCoordinate(i - 1);
         ray = replayScatter<T>(scene, path, Side::kCamera, i - 1, camera, v[0], v[1]);
       }
       if (i == technique.t - 1 && path.escaped) break;
-      camera = arriveAt<T>(scene, ray, path.camera[static_cast<std::size_t>(i)].id);
+      camera = arriveAt<T>(scene, ray, path.camera[static_cast<std::size_t>(i)].id, time);
     }
   }
   const T* lightU = u + technique.lightOffset();
   if (technique.s >= 2) {
     PathRay<T> emitted = startLight<T>(scene, path.lightIndex, path.lightPrimitive, lightU[0],
-                                       lightU[1], lightU[2], lightU[3]);
+                                       lightU[1], lightU[2], lightU[3], time);
     for (int i = 1; i < technique.s; ++i) {
       if (i > 1) {
         const T* v = u + technique.lightCoordinate(i - 1);
         emitted = replayScatter<T>(scene, path, Side::kLight, i - 1, light, v[0], v[1]);
       }
-      light = arriveAt<T>(scene, emitted, path.light[static_cast<std::size_t>(i)].id);
+      light = arriveAt<T>(scene, emitted, path.light[static_cast<std::size_t>(i)].id, time);
     }
   }
-  return joinedLogTarget<T>(scene, path, ray, camera, light, lightU);
+  return joinedLogTarget<T>(scene, path, ray, camera, light, lightU, time);
+}
+
+// The same of path.dimension() coordinates: time is the last where the path depends on it.
+template <class T>
+T replayWithTime(const Scene& scene, const Path& path, const T* u) {
+  return replayLogTarget<T>(scene, path, u, path.moving ? u + path.technique.dimension() : nullptr);
 }
 
 }  // namespace h2mc

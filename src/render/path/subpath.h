@@ -2,6 +2,9 @@
 // light, arrive at a surface, scatter. With T = float they trace; with a derivative type they give
 // the derivatives of what was traced, on the frozen topology.
 //
+// `time` is the moment of the shutter's opening, in [0, 1]. It may be null where nothing that the path
+// touches moves: nothing then depends on it, and no derivative is wasted on it.
+//
 // MIS weights follow the recursive form of Georgiev 2012 ("Implementing Vertex Connection and
 // Merging", eqs. 31-40) for the power heuristic with exponent 2. Where the report squares every
 // density, `vcm` and `vc` here are the square roots of its sums: their range stays that of the
@@ -51,29 +54,39 @@ inline const Material& materialAt(const Scene& scene, PrimitiveId id) {
   return scene.materials[static_cast<std::size_t>(scene.shapes[id.shape].material)];
 }
 
+// Calls f with the camera's pose: plain numbers where it stands still, functions of time otherwise.
+template <class T, class F>
+auto withCameraPose(const Scene& scene, const T* time, F&& f) {
+  if (scene.camera.moves()) return f(scene.camera.poseAt(*time));
+  return f(scene.camera.pose<Scalar<T>>());
+}
+
 template <class T>
-PathRay<T> startCamera(const Scene& scene, const T& filmX, const T& filmY) {
-  PathRay<T> ray;
-  const Vec3<Scalar<T>> origin = plain<T>(scene.camera.position());
-  ray.origin = {T(origin.x), T(origin.y), T(origin.z)};
-  ray.direction = scene.camera.direction(filmX, filmY);
-  ray.throughput = Rgb<T>(T(1));
-  ray.vcm = T(1) / scene.camera.pdf(scene.camera.cosine(ray.direction));
-  ray.vc = T(0);
-  return ray;
+PathRay<T> startCamera(const Scene& scene, const T& filmX, const T& filmY,
+                       const std::type_identity_t<T>* time = nullptr) {
+  return withCameraPose<T>(scene, time, [&](const auto& pose) {
+    PathRay<T> ray;
+    ray.origin = liftFrom<T>(pose.position);
+    ray.direction = scene.camera.direction(pose, filmX, filmY);
+    ray.throughput = Rgb<T>(T(1));
+    ray.vcm = T(1) / scene.camera.pdf(T(dot(pose.forward, ray.direction)));
+    ray.vc = T(0);
+    return ray;
+  });
 }
 
 // A ray from light number `light` with the discrete choice `primitive` made; u places it, v directs
 // it.
 template <class T>
 PathRay<T> startLight(const Scene& scene, int light, PrimitiveId primitive, const T& u0,
-                      const T& u1, const T& v0, const T& v1) {
+                      const T& u1, const T& v0, const T& v1,
+                      const std::type_identity_t<T>* time = nullptr) {
   using S = Scalar<T>;
   const S pick = scene.lightPicker.probability(light);
   return std::visit(
       [&](const auto& l) {
         const EmittedRay<T> e =
-            l.template sampleEmission<T>(scene.lightContext(), primitive, u0, u1, v0, v1);
+            sampleEmissionAt<T>(l, scene.lightContext(), primitive, u0, u1, v0, v1, time);
         PathRay<T> ray;
         ray.origin = e.origin;
         ray.direction = e.direction;
@@ -105,8 +118,9 @@ PathVertex<T> arriveAtPoint(const PathRay<T>& ray, const SurfacePoint<T>& point)
 }
 
 template <class T>
-PathVertex<T> arriveAt(const Scene& scene, const PathRay<T>& ray, PrimitiveId id) {
-  return arriveAtPoint(ray, intersectPrimitive(scene.shapes, id, ray.origin, ray.direction));
+PathVertex<T> arriveAt(const Scene& scene, const PathRay<T>& ray, PrimitiveId id,
+                       const std::type_identity_t<T>* time = nullptr) {
+  return arriveAtPoint(ray, intersectPrimitive(scene.shapes, id, ray.origin, ray.direction, time));
 }
 
 // Continues from a vertex in the local direction `wo`, drawn with the density that the material has

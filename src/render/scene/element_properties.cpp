@@ -382,9 +382,24 @@ Vec3f ElementProperties::vector(std::string_view name) const {
 }
 
 Mat4 ElementProperties::transform(std::string_view name) const {
+  const Motion found = motion(name);
+  if (found.moves())
+    fail(name, description() + " can't move",
+         "expected keyframes that are all the same, or a <transform>");
+  return Mat4(found.at(0));
+}
+
+Motion ElementProperties::motion(std::string_view name) const {
   const XmlElement* child = source(name);
-  if (!child) return Mat4(1);
-  return child->name == "animation" ? readAnimation(*child) : readTransform(*child);
+  if (!child) return Motion();
+  if (child->name != "animation") return Motion(glm::dmat4(readTransform(*child)));
+  const std::vector<Motion::Keyframe> frames = readAnimation(*child);
+  const double open = context_.scene.camera.shutterOpen, close = context_.scene.camera.shutterClose;
+  const Motion seen(frames, open, close);
+  if (!seen.moves() && Motion(frames, frames.front().time, frames.back().time).moves())
+    context_.note("an <animation> is not seen to move: the shutter is open from " +
+                  std::to_string(open) + " to " + std::to_string(close));
+  return seen;
 }
 
 std::string ElementProperties::file(std::string_view name) const {

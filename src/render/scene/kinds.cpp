@@ -6,7 +6,8 @@ namespace h2mc {
 namespace {
 
 // In the order of the variants' alternatives.
-constexpr const char* kShapes[] = {"triangle mesh", "sphere", "disk"};
+constexpr const char* kShapes[] = {"triangle mesh",        "sphere",        "disk",
+                                   "moving triangle mesh", "moving sphere", "moving disk"};
 constexpr const char* kLights[] = {"area", "point", "spot", "directional", "constant", "envmap"};
 constexpr const char* kBsdfs[] = {"diffuse",   "phong",      "roughconductor", "roughdielectric",
                                   "conductor", "dielectric", "plastic",        "roughplastic"};

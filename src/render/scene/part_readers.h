@@ -3,11 +3,18 @@
 
 #include "render/scene/reader_context.h"
 #include "render/scene/scene_reader.h"
+#include "render/scene/shape_plugins.h"
 
 namespace h2mc {
 
+class ElementProperties;
+
 // Adds the shape with its material and its area light.
 void readShape(ReaderContext& context, const XmlElement& element);
+
+// The geometry of a shape "deforming", made of the shapes nested in it, once its own parameters have
+// been checked.
+ShapeGeometry readDeforming(ReaderContext& context, const ElementProperties& properties);
 
 // Adds a light that stands alone.
 void readLight(ReaderContext& context, const XmlElement& element);

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "render/core/motion.h"
 #include "render/core/types.h"
 #include "render/texture/texture.h"
 
@@ -36,8 +37,11 @@ class Properties {
   virtual std::string string(std::string_view name) const = 0;  // lower-case if it has choices
   virtual Rgbf color(std::string_view name) const = 0;          // finite, not negative
   virtual TexturePtr texture(std::string_view name) const = 0;
-  virtual Vec3f vector(std::string_view name) const = 0;    // points too
-  virtual Mat4 transform(std::string_view name) const = 0;  // identity by default
+  virtual Vec3f vector(std::string_view name) const = 0;  // points too
+  virtual Mat4 transform(
+      std::string_view name) const = 0;  // identity by default; fails if it moves
+  // The same for what may move: a <transform>, or what the camera's shutter sees of an <animation>.
+  virtual Motion motion(std::string_view name) const { return Motion(glm::dmat4(transform(name))); }
   // The path of a file named by a string parameter, found relative to the scene file; fails when
   // it is not there.
   virtual std::string file(std::string_view name) const = 0;

@@ -18,6 +18,16 @@ struct Box {
   void add(const TriangleMesh& mesh) {
     for (const Vec3f& p : mesh.positions) add(glm::dvec3(p));
   }
+  // Between its steps a moving shape lies within what they span.
+  void add(const MovingMesh& mesh) {
+    for (const Vec3f& p : mesh.positions) add(glm::dvec3(p));
+  }
+  void add(const MovingSphere& sphere) {
+    for (const Sphere& step : sphere.steps) add(step);
+  }
+  void add(const MovingDisk& disk) {
+    for (const Disk& step : disk.steps) add(step);
+  }
   void add(const Sphere& sphere) {
     add(glm::dvec3(sphere.center) - glm::dvec3(sphere.radius));
     add(glm::dvec3(sphere.center) + glm::dvec3(sphere.radius));
@@ -51,6 +61,8 @@ SceneBounds boundsOf(std::span<const Shape> shapes) {
 }
 
 void Scene::finish() {
+  moving = camera.moves() || std::any_of(shapes.begin(), shapes.end(),
+                                         [](const Shape& shape) { return shape.moves(); });
   bounds = boundsOf(shapes);
   prepareLights(lights, shapes);
   std::vector<double> powers;

@@ -44,7 +44,8 @@ struct Scene {
   std::vector<std::string> notes;     // accepted and not used, left out because nothing needs it
 
   // Made by finish():
-  SceneBounds bounds;
+  bool moving = false;  // the camera or any shape moves while the shutter is open
+  SceneBounds bounds;   // of all that is in it at any moment
   LightPicker lightPicker;
   std::unique_ptr<RayTracer> tracer;
 

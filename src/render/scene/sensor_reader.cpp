@@ -237,15 +237,19 @@ void readSensor(ReaderContext& context, const XmlElement& element, const ReadOpt
   for (std::string_view name : {"principalPointOffsetX", "principalPointOffsetY"})
     if (p.number(name) != 0) p.fail(name, "a shifted principal point is not supported");
   const float aspect = static_cast<float>(scene.film.width) / static_cast<float>(scene.film.height);
-  scene.camera = Camera(p.transform("toWorld"), fov, axis, aspect);
+  const float shutterOpen = p.number("shutterOpen"), shutterClose = p.number("shutterClose");
+  if (shutterClose < shutterOpen) p.fail("shutterClose", "the shutter closes before it opens");
+  scene.camera.shutterOpen = shutterOpen;  // what motion() goes by
+  scene.camera.shutterClose = shutterClose;
+  const Motion motion = p.motion("toWorld");
+  scene.camera = Camera(Mat4(motion.at(0)), fov, axis, aspect);
+  scene.camera.follow(motion);
+  scene.camera.shutterOpen = shutterOpen;
+  scene.camera.shutterClose = shutterClose;
   scene.camera.nearClip = positive(p, "nearClip");
   scene.camera.farClip = positive(p, "farClip");
   if (!(scene.camera.nearClip < scene.camera.farClip))
     p.fail("farClip", "farClip must be larger than nearClip");
-  scene.camera.shutterOpen = p.number("shutterOpen");
-  scene.camera.shutterClose = p.number("shutterClose");
-  if (scene.camera.shutterClose < scene.camera.shutterOpen)
-    p.fail("shutterClose", "the shutter closes before it opens");
 }
 
 }  // namespace h2mc

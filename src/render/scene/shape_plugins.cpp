@@ -9,7 +9,8 @@ namespace {
 
 using enum ParameterType;
 
-constexpr Parameter kToWorld = {"toWorld", kTransform, "", "from object to world space"};
+constexpr Parameter kToWorld = {"toWorld", kTransform, "",
+                                "from object to world space; may be an <animation>"};
 constexpr Parameter kFlipNormals = {"flipNormals", kBoolean, "false", "turns the normals round"};
 constexpr Parameter kFilename = {"filename", kString, "", "the mesh's file"};
 constexpr Parameter kFaceNormals = {"faceNormals", kBoolean, "false",
@@ -40,21 +41,50 @@ constexpr Parameter kPly[] = {kFilename,
                               kMaxSmoothAngle,
                               ignoredParameter("srgb", kBoolean)};
 constexpr Parameter kFlat[] = {kToWorld, kFlipNormals};
+constexpr Parameter kDeforming[] = {
+    {"startTime", kNumber, "", "when it has the first nested shape's form; the shutter's opening"},
+    {"endTime", kNumber, "", "when it has the last one's; the shutter's closing"}};
 constexpr Parameter kSphereParameters[] = {
     {"center", kPoint, "0, 0, 0", "the middle, in object space"},
     {"radius", kNumber, "1", "in object space"},
     {"toWorld", kTransform, "", "from object to world space; scales alike in all directions"},
     kFlipNormals};
 
+// The transforms at a motion's steps, for what lies in the box [low, high].
+std::vector<Mat4> motionSteps(const Motion& motion, const glm::dvec3& low, const glm::dvec3& high,
+                              double& error) {
+  const int segments = motionSegments(motion, low, high, error);
+  std::vector<Mat4> steps;
+  for (int i = 0; i <= segments; ++i)
+    steps.emplace_back(motion.at(static_cast<double>(i) / segments));
+  return steps;
+}
+
+ShapeGeometry finished(const Properties& p, MeshData data, MeshOptions options) {
+  const Motion motion = p.motion("toWorld");
+  options.toWorld = Mat4(motion.at(0));
+  options.flipNormals = p.boolean("flipNormals");
+  ShapeGeometry result;
+  if (motion.moves()) {
+    glm::dvec3 low(INFINITY), high(-INFINITY);
+    for (const Vec3f& v : data.positions) {
+      low = glm::min(low, glm::dvec3(v));
+      high = glm::max(high, glm::dvec3(v));
+    }
+    result.geometry = finishMovingMesh(
+        data, options, motionSteps(motion, low, high, result.motionError), result.dropped);
+  } else {
+    result.geometry = finishMesh(std::move(data), options, result.dropped);
+  }
+  return result;
+}
+
+// Of a mesh from a file.
 ShapeGeometry finished(const Properties& p, MeshData data, bool rewindMirrored) {
   MeshOptions options;
-  options.toWorld = p.transform("toWorld");
   options.faceNormals = p.boolean("faceNormals");
-  options.flipNormals = p.boolean("flipNormals");
   options.rewindMirrored = rewindMirrored;
-  ShapeGeometry result;
-  result.geometry = finishMesh(std::move(data), options, result.dropped);
-  return result;
+  return finished(p, std::move(data), options);
 }
 
 // What a loader finds wrong is said at the file's name.
@@ -89,20 +119,24 @@ ShapeGeometry createPly(const Properties& p) {
 }
 
 ShapeGeometry createRectangle(const Properties& p) {
-  return {makeRectangle(p.transform("toWorld"), p.boolean("flipNormals")), 0};
-}
-
-ShapeGeometry createCube(const Properties& p) {
-  MeshOptions options;
-  options.toWorld = p.transform("toWorld");
-  options.flipNormals = p.boolean("flipNormals");
+  const Motion motion = p.motion("toWorld");
+  const bool flip = p.boolean("flipNormals");
   ShapeGeometry result;
-  result.geometry = finishMesh(makeCube(), options, result.dropped);
+  if (motion.moves()) {
+    std::vector<TriangleMesh> steps;
+    for (const Mat4& m : motionSteps(motion, {-1, -1, 0}, {1, 1, 0}, result.motionError))
+      steps.push_back(makeRectangle(m, flip));
+    result.geometry = joinSteps(std::move(steps));
+  } else {
+    result.geometry = makeRectangle(Mat4(motion.at(0)), flip);
+  }
   return result;
 }
 
-ShapeGeometry createSphere(const Properties& p) {
-  const glm::dmat4 toWorld(p.transform("toWorld"));
+ShapeGeometry createCube(const Properties& p) { return finished(p, makeCube(), MeshOptions()); }
+
+Sphere makeSphere(const Properties& p, const Mat4& matrix) {
+  const glm::dmat4 toWorld(matrix);
   const glm::dmat3 linear(toWorld);
   const double scale = glm::length(linear[0]);
   for (int i = 0; i < 3; ++i) {
@@ -121,18 +155,40 @@ ShapeGeometry createSphere(const Properties& p) {
   sphere.radius = static_cast<float>(radius);
   sphere.flipNormals = p.boolean("flipNormals");
   sphere.toLocal = glm::mat3(glm::transpose(linear / scale));
-  return {sphere, 0};
+  return sphere;
 }
 
-ShapeGeometry createDisk(const Properties& p) {
-  const Mat4 toWorld = p.transform("toWorld");
+ShapeGeometry createSphere(const Properties& p) {
+  const Motion motion = p.motion("toWorld");
+  if (!motion.moves()) return {makeSphere(p, Mat4(motion.at(0)))};
+  ShapeGeometry result;
+  const glm::dvec3 center(p.vector("center")), radius(static_cast<double>(p.number("radius")));
+  MovingSphere moving;
+  for (const Mat4& m : motionSteps(motion, center - radius, center + radius, result.motionError))
+    moving.steps.push_back(makeSphere(p, m));
+  result.geometry = std::move(moving);
+  return result;
+}
+
+Disk makeDisk(const Properties& p, const Mat4& toWorld) {
   Disk disk;
   disk.center = Vec3f(toWorld[3]);
   disk.axisX = Vec3f(toWorld[0]);
   disk.axisY = Vec3f(toWorld[1]);
   const glm::dvec3 normal = glm::normalize(normalTransform(toWorld)[2]);
   disk.normal = Vec3f(p.boolean("flipNormals") ? -normal : normal);
-  return {disk, 0};
+  return disk;
+}
+
+ShapeGeometry createDisk(const Properties& p) {
+  const Motion motion = p.motion("toWorld");
+  if (!motion.moves()) return {makeDisk(p, Mat4(motion.at(0)))};
+  ShapeGeometry result;
+  MovingDisk moving;
+  for (const Mat4& m : motionSteps(motion, {-1, -1, 0}, {1, 1, 0}, result.motionError))
+    moving.steps.push_back(makeDisk(p, m));
+  result.geometry = std::move(moving);
+  return result;
 }
 
 }  // namespace
@@ -146,6 +202,8 @@ std::span<const Plugin<ShapeGeometry>> shapePlugins() {
       {"cube", "the cube [-1, 1]^3", kFlat, createCube},
       {"sphere", "a sphere", kSphereParameters, createSphere},
       {"disk", "the unit disk in z = 0, its normal along +z", kFlat, createDisk},
+      {"deforming", "two or more nested meshes of the same triangles, taken in turn at equal times",
+       kDeforming, nullptr},
   };
   return kPlugins;
 }

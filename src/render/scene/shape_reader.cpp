@@ -1,3 +1,6 @@
+#include <iomanip>
+#include <sstream>
+
 #include "render/scene/element_properties.h"
 #include "render/scene/part_readers.h"
 #include "render/scene/shape_plugins.h"
@@ -41,9 +44,12 @@ void readShape(ReaderContext& context, const XmlElement& element) {
     emitter = &target;
   }
 
-  const ElementProperties properties(
-      context, element, {"shape", plugin.parameters, 1, {"emitter", "luminaire"}, false});
-  ShapeGeometry made = createLocated(properties, plugin.create);
+  std::vector<std::string> objects = {"emitter", "luminaire"};
+  if (!plugin.create) objects.emplace_back("shape");
+  const ElementProperties properties(context, element,
+                                     {"shape", plugin.parameters, 1, objects, false});
+  ShapeGeometry made =
+      plugin.create ? createLocated(properties, plugin.create) : readDeforming(context, properties);
   Shape shape;
   shape.name = element.attribute("id");
   if (shape.name.empty()) {
@@ -55,8 +61,16 @@ void readShape(ReaderContext& context, const XmlElement& element) {
     context.note("left out: " + std::to_string(made.dropped) +
                  (made.dropped == 1 ? " triangle" : " triangles") + " without area of shape \"" +
                  shape.name + "\"");
-  if (const auto* mesh = std::get_if<TriangleMesh>(&made.geometry);
-      mesh && mesh->triangles.empty()) {
+  if (made.motionError > kChordError) {
+    std::ostringstream percent;
+    percent << std::setprecision(2) << 100 * made.motionError;
+    context.note("shape \"" + shape.name + "\" turns so far that in " +
+                 std::to_string(kMaxMotionSegments) + " steps it is off by up to " + percent.str() +
+                 " % of its size");
+  }
+  const auto* still = std::get_if<TriangleMesh>(&made.geometry);
+  const auto* moving = std::get_if<MovingMesh>(&made.geometry);
+  if ((still && still->triangles.empty()) || (moving && moving->triangles.empty())) {
     context.note("left out: shape \"" + shape.name + "\" has no area");
     return;
   }

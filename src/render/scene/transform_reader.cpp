@@ -1,5 +1,6 @@
 #include "render/scene/transform_reader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -148,26 +149,34 @@ Mat4 readTransform(const XmlElement& transform) {
   return Mat4(readOperations(transform));
 }
 
-Mat4 readAnimation(const XmlElement& animation) {
+std::vector<Motion::Keyframe> readAnimation(const XmlElement& animation) {
   animation.allowAttributes({"name", "id"});
   if (animation.children.empty())
     throw sourceError(animation.place(), "<animation> without keyframes",
                       "expected <transform time=\"...\"> inside");
-  Mat4 first(1);
-  for (std::size_t i = 0; i < animation.children.size(); ++i) {
-    const XmlElement& key = animation.children[i];
+  std::vector<std::pair<Motion::Keyframe, const XmlElement*>> keys;
+  for (const XmlElement& key : animation.children) {
     if (key.name != "transform")
       throw sourceError(key.place(), "<" + key.name + "> inside <animation>",
                         "expected <transform time=\"...\">");
     key.allowAttributes({"time", "name"});
-    readNumber(key, "time");
-    const Mat4 m = Mat4(readOperations(key));
-    if (i == 0) first = m;
-    if (m != first)
-      throw sourceError(animation.place(), "motion is not supported yet: the keyframes differ",
-                        "expected keyframes that are all the same, or a <transform>");
+    // As precise as the shutter's times: a keyframe at the shutter's opening is at its opening.
+    const double time = static_cast<double>(static_cast<float>(readNumber(key, "time")));
+    keys.push_back({{time, readOperations(key)}, &key});
   }
-  return first;
+  std::stable_sort(keys.begin(), keys.end(),
+                   [](const auto& a, const auto& b) { return a.first.time < b.first.time; });
+  std::vector<Motion::Keyframe> frames;
+  const bool mirrors = glm::determinant(glm::dmat3(keys[0].first.matrix)) < 0;
+  for (const auto& [frame, element] : keys) {
+    if (!frames.empty() && frame.time == frames.back().time)
+      throw sourceError(element->place("time"), "a second keyframe at the same time");
+    if ((glm::determinant(glm::dmat3(frame.matrix)) < 0) != mirrors)
+      throw sourceError(element->place(), "one keyframe mirrors and another does not",
+                        "between them the shape would be flat");
+    frames.push_back(frame);
+  }
+  return frames;
 }
 
 }  // namespace h2mc

@@ -2,6 +2,7 @@
 // written.
 #pragma once
 
+#include "render/core/motion.h"
 #include "render/core/types.h"
 #include "render/scene/xml_document.h"
 
@@ -11,8 +12,9 @@ namespace h2mc {
 // inverted.
 Mat4 readTransform(const XmlElement& transform);
 
-// Reads an <animation> of which all keyframes are the same; motion is a SceneError.
-Mat4 readAnimation(const XmlElement& animation);
+// Reads the keyframes of an <animation>, in the order of their times. Throws SceneError where there are
+// none, two are at the same time, or one mirrors and another does not.
+std::vector<Motion::Keyframe> readAnimation(const XmlElement& animation);
 
 // Three numbers from x, y, z (each `missing` when it is not given) or from value="x, y, z".
 glm::dvec3 readVector(const XmlElement& element, double missing = 0);
