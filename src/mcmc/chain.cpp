@@ -33,24 +33,33 @@ std::vector<std::string> KernelMixture::kindNames() const {
 }
 
 Chain::Chain(const Target& target, const Path& start, Random random)
-    : current_(std::make_unique<ChainState>(target.maxLength())),
+    : target_(target),
+      current_(std::make_unique<ChainState>(target.maxLength())),
       proposed_(std::make_unique<ChainState>(target.maxLength())),
       random_(random) {
-  current_->path.technique = start.technique;
-  current_->path.sample = start.sample;
-  target.evaluate(current_->path);
+  restart(start);
 }
 
-void Chain::flush(Film& film) {
-  splatPending(film);
+void Chain::restart(const Path& from) {
+  current_->forget();
+  if (&from != &current_->path) {
+    current_->path.technique = from.technique;
+    current_->path.sample = from.sample;
+  }
+  target_.evaluate(current_->path);
+}
+
+void Chain::flush(const KernelMixture& kernels, SummedFilm& film) {
+  splatPending(kernels, film);
   weight_ = 0;
 }
 
-void Chain::splatPending(Film& film) const {
-  if (weight_ > 0) Mutation::splatPath(current_->path, weight_, film);
+void Chain::splatPending(const KernelMixture& kernels, SummedFilm& film) const {
+  const Path& path = current_->path;
+  if (weight_ > 0) Mutation::splatPath(path, weight_, kernels.shared(path.technique), film);
 }
 
-void Chain::step(KernelMixture& kernels, Film& film, ChainStatistics& statistics,
+void Chain::step(KernelMixture& kernels, ChainFilms& films, ChainStatistics& statistics,
                  MutationContext& context) {
   context.random = &random_;
   context.timed = steps_++ % kTimedEvery == 0;
@@ -91,11 +100,17 @@ void Chain::step(KernelMixture& kernels, Film& film, ChainStatistics& statistics
       statistics.acceptance[kind][static_cast<std::size_t>(current_->path.technique.length())];
   ++count.proposed;
   count.expected += acceptance;
-  if (kind == 0) statistics.largeSteps.add(kernels.large->lastEstimate());
+  if (kind == 0) {
+    const double estimate = kernels.large->lastEstimate();
+    statistics.largeSteps.add(estimate);
+    if (estimate > 0 && kernels.brightness > 0)
+      kernels.large->splatSample(*proposed_, kernels.share(), films.samples);
+  }
   if (acceptance > 0) {
-    mutation->splatProposal(*proposed_, acceptance, film);
+    mutation->splatProposal(*proposed_, acceptance, kernels.shared(proposed_->path.technique),
+                            films.states);
     if (random_.uniform() < acceptance) {
-      flush(film);
+      flush(kernels, films.states);
       std::swap(current_, proposed_);
       moved_ = true;
     }

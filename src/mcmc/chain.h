@@ -20,9 +20,33 @@ struct KernelMixture {
     double lightShare;   // for t = 1, where the film position is not a coordinate
   };
   std::vector<Small> small;
+  // Mean of the target over all techniques' spaces, or an estimate made before the chains have run;
+  // 0 where large steps are proposals and nothing else. Otherwise they also count as independent
+  // samples of the image, weighted against the chains' states by the balance heuristic
+  // [Kelemen et al. 2002, section 3.4]: in n mutations there are n * largeProbability * density of
+  // these where there are n * target / brightness of those. With share = largeProbability *
+  // brightness, a state's contribution is then divided by target + share * density, and a sample's
+  // multiplied by share / (target + share * density), whatever the true brightness is.
+  double brightness = 0;
 
+  double share() const { return largeProbability * brightness; }
+  double shared(const Technique& technique) const {
+    return brightness > 0 ? share() * large->density(technique) : 0;
+  }
   int kinds() const { return 1 + static_cast<int>(small.size()); }
   std::vector<std::string> kindNames() const;
+};
+
+// What chains leave: `states` for n mutations is to be divided by n and multiplied by the target's
+// mean, `samples` (of large steps) to be divided by the number of large steps.
+struct ChainFilms {
+  explicit ChainFilms(const FilmSettings& settings)
+      : states{Film(settings)}, samples{Film(settings)} {}
+  void clear() {
+    states.clear();
+    samples.clear();
+  }
+  SummedFilm states, samples;
 };
 
 class Chain {
@@ -30,20 +54,23 @@ class Chain {
   // Starts at the path that `start` holds, which must have a positive target.
   Chain(const Target& target, const Path& start, Random random);
 
-  // Makes one mutation. Splats the states, each with its expected weight over its target, so that the
-  // film's mean luminance tends to 1 per mutation.
-  void step(KernelMixture& kernels, Film& film, ChainStatistics& statistics,
+  // Makes one mutation. Splats the states, each with its expected weight over its target.
+  void step(KernelMixture& kernels, ChainFilms& films, ChainStatistics& statistics,
             MutationContext& context);
 
-  // Splats what has gathered on the present state. Call before the film is read.
-  void flush(Film& film);
+  // Splats what has gathered on the present state.
+  void flush(const KernelMixture& kernels, SummedFilm& film);
   // The same for a copy of the film that is read while the chain goes on.
-  void splatPending(Film& film) const;
+  void splatPending(const KernelMixture& kernels, SummedFilm& film) const;
+
+  // Goes on from another path, evaluated anew. Precondition: flushed.
+  void restart(const Path& from);
 
   bool moved() const { return moved_; }
   const Path& path() const { return current_->path; }
 
  private:
+  const Target& target_;
   std::unique_ptr<ChainState> current_, proposed_;
   Random random_;
   double weight_ = 0;  // of the present state, not yet splatted

@@ -18,6 +18,7 @@ class DirectLighting {
   // Whether it is split off from the chains at all.
   bool wanted() const { return wanted_ != 0 && minDepth_ <= kLongest; }
   bool interrupted() const { return result_.interrupted; }
+  const Image& image() const { return result_.image; }
 
   // Brings it up to what a render of so many seconds, or of so many mutations a pixel, gets. Both
   // may only grow from call to call.

@@ -17,10 +17,18 @@ bool MultiplexedLargeStep::propose(ChainState& current, ChainState& proposed,
     path.sample.choice[static_cast<std::size_t>(i)] = random.uniform();
   lastEstimate_ = 0;
   if (!target_.evaluate(path)) return false;
-  lastEstimate_ = path.target / techniques_.probability(index);
+  lastEstimate_ = luminance(path.contribution) / techniques_.probability(index);
   logRatio =
       std::log(techniques_.probability(current.path.technique) / techniques_.probability(index));
   return true;
+}
+
+void MultiplexedLargeStep::splatSample(const ChainState& proposed, double share,
+                                       SummedFilm& film) const {
+  const Path& path = proposed.path;
+  const double shared = share * techniques_.probability(path.technique);
+  film.splat(path.filmX, path.filmY,
+             path.contribution * static_cast<float>(share / (path.target + shared)));
 }
 
 bool BidirectionalLargeStep::propose(ChainState& current, ChainState& proposed,
@@ -28,21 +36,20 @@ bool BidirectionalLargeStep::propose(ChainState& current, ChainState& proposed,
   const Scene& scene = target_.scene();
   Random& random = *context.random;
   connections_.clear();
+  lastEstimate_ = 0;
   double sum = 0;
   sampler_.sample(scene, random, -1, -1, minLength_,
                   [&](const BidirectionalSampler::Connection& c) {
-                    connections_.push_back(c);
-                    sum += luminance(c.contribution);
+                    connections_.push_back({c, target_.target(c)});
+                    sum += connections_.back().target;
+                    lastEstimate_ += luminance(c.contribution);
                   });
-  lastEstimate_ = sum;
   if (!(sum > 0)) return false;
   double u = random.uniformDouble() * sum;
   std::size_t picked = 0;
-  while (picked + 1 < connections_.size() &&
-         (u -= luminance(connections_[picked].contribution)) >= 0)
-    ++picked;
+  while (picked + 1 < connections_.size() && (u -= connections_[picked].target) >= 0) ++picked;
   Path& path = proposed.path;
-  path.technique = connections_[picked].technique;
+  path.technique = connections_[picked].connection.technique;
   path.sample = sampler_.primarySample(path.technique);
   if (!target_.evaluate(path)) return false;
   proposed.bidirectional = sum;
@@ -51,7 +58,7 @@ bool BidirectionalLargeStep::propose(ChainState& current, ChainState& proposed,
     double whole = 0;
     sampler_.complete(
         scene, random, current.path, minLength_,
-        [&](const BidirectionalSampler::Connection& c) { whole += luminance(c.contribution); });
+        [&](const BidirectionalSampler::Connection& c) { whole += target_.target(c); });
     // The path itself is among the connections; rounding may not make it vanish.
     current.bidirectional = std::max(whole, double(current.path.target));
   }
@@ -59,11 +66,18 @@ bool BidirectionalLargeStep::propose(ChainState& current, ChainState& proposed,
   return true;
 }
 
-void BidirectionalLargeStep::splatProposal(const ChainState& proposed, double weight,
-                                           Film& film) const {
-  for (const BidirectionalSampler::Connection& c : connections_)
-    film.splat(c.filmX, c.filmY,
-               c.contribution * static_cast<float>(weight / proposed.bidirectional));
+void BidirectionalLargeStep::splatProposal(const ChainState& proposed, double weight, double shared,
+                                           SummedFilm& film) const {
+  for (const auto& [c, target] : connections_) {
+    // target / bidirectional is the probability of having picked this one.
+    const double share = target / proposed.bidirectional / (target + shared);
+    film.splat(c.filmX, c.filmY, c.contribution * static_cast<float>(weight * share));
+  }
+}
+
+void BidirectionalLargeStep::splatSample(const ChainState&, double share, SummedFilm& film) const {
+  for (const auto& [c, target] : connections_)
+    film.splat(c.filmX, c.filmY, c.contribution * static_cast<float>(share / (target + share)));
 }
 
 }  // namespace h2mc

@@ -13,6 +13,11 @@ class LargeStep : public Mutation {
   // An unbiased estimate of the film's mean luminance that the last proposal gives; zero if it was
   // dark.
   double lastEstimate() const { return lastEstimate_; }
+  // With which density proposals cover the primary space of a technique.
+  virtual double density(const Technique& technique) const = 0;
+  // Adds the last proposal to a film, a sample by itself, with `share` / (target + share * density)
+  // as weight of each path: see KernelMixture::brightness.
+  virtual void splatSample(const ChainState& proposed, double share, SummedFilm& film) const = 0;
 
  protected:
   double lastEstimate_ = 0;
@@ -26,6 +31,10 @@ class MultiplexedLargeStep final : public LargeStep {
       : target_(target), techniques_(techniques) {}
   bool propose(ChainState& current, ChainState& proposed, MutationContext& context,
                double& logRatio) override;
+  double density(const Technique& technique) const override {
+    return techniques_.probability(technique);
+  }
+  void splatSample(const ChainState& proposed, double share, SummedFilm& film) const override;
 
  private:
   const Target& target_;
@@ -46,13 +55,20 @@ class BidirectionalLargeStep final : public LargeStep {
   bool propose(ChainState& current, ChainState& proposed, MutationContext& context,
                double& logRatio) override;
   // All connections: the acceptance does not depend on which was picked.
-  void splatProposal(const ChainState& proposed, double weight, Film& film) const override;
+  void splatProposal(const ChainState& proposed, double weight, double shared,
+                     SummedFilm& film) const override;
+  double density(const Technique&) const override { return 1; }
+  void splatSample(const ChainState& proposed, double share, SummedFilm& film) const override;
 
  private:
   const SceneTarget& target_;
   int minLength_;
   BidirectionalSampler sampler_;
-  std::vector<BidirectionalSampler::Connection> connections_;
+  struct Weighed {
+    BidirectionalSampler::Connection connection;
+    double target;
+  };
+  std::vector<Weighed> connections_;
 };
 
 }  // namespace h2mc

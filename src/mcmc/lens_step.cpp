@@ -160,7 +160,8 @@ bool LensStep::propose(ChainState& current, ChainState& proposed, MutationContex
     for (int i = reconnection + 2; i < last; ++i)
       if (!follow(to, from, i)) return false;
   }
-  if (!joinSubpaths(scene, to) || reconnectionVertex(to) != reconnection) return false;
+  if (!joinSubpaths(scene, to) || !target_.weigh(to) || reconnectionVertex(to) != reconnection)
+    return false;
   logRatio = logDensity(to, reconnection) - logDensity(from, reconnection);
   if (settings_.hessian) {
     prepare(proposed, reconnection, context);

@@ -5,26 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mcmc/bootstrap.h"
 #include "mcmc/direct_lighting.h"
+#include "mcmc/ensemble.h"
 #include "render/integrator/common_options.h"
 #include "render/integrator/parallel_rounds.h"
 
 namespace h2mc {
 namespace {
 
-constexpr std::uint64_t kStartStream = 0x73746172, kChainStream = 0x636861696e;
 // Mutations of a chain in one round: a round of all chains takes a fraction of a second.
 constexpr long long kRound = 256;
-
-// One group's chains, with what must not be shared.
-struct ChainGroup {
-  Film film;
-  KernelMixture kernels;
-  ChainStatistics statistics;
-  MutationContext context;
-  std::vector<std::unique_ptr<Chain>> chains;
-};
 
 class MetropolisIntegrator final : public Integrator {
  public:
@@ -46,63 +36,6 @@ class MetropolisIntegrator final : public Integrator {
   OptionSet options_;
   int maxLength_;
 };
-
-// Brightness: bootstrap samples and large steps both estimate it without bias. A multiplexed large
-// step sees one technique where a bootstrap sample sees all; the bootstrap knows both variances.
-// The large steps' weight against bootstrap samples.
-double largeStepWeight(const Bootstrap& bootstrap, const TechniqueDistribution& techniques) {
-  double multiplexed = 0;
-  for (int k = 0; k < techniques.size(); ++k)
-    if (techniques.probability(k) > 0)
-      multiplexed +=
-          bootstrap.techniqueSquares()[static_cast<std::size_t>(k)] / techniques.probability(k);
-  const Moments& first = bootstrap.luminance();
-  const double spread = std::max(multiplexed - squared(first.mean()), 1e-30);
-  return std::min(1.0, first.variance() / spread);
-}
-
-// What the chains have so far, but for the time; leaves them as they are.
-RenderResult chainResult(const Scene& scene, const std::vector<ChainGroup>& work, int maxLength,
-                         const Bootstrap& bootstrap, double weight) {
-  ChainStatistics total(work[0].kernels.kinds(), maxLength);
-  long long chains = 0, neverMoved = 0;
-  Film film(scene.film);
-  for (const ChainGroup& group : work) {
-    ChainStatistics statistics = group.statistics;
-    statistics.derivatives = group.context.derivatives;
-    total.add(statistics);
-    film.merge(group.film);
-    for (const auto& chain : group.chains) {
-      chain->splatPending(film);
-      neverMoved += !chain->moved();
-      ++chains;
-    }
-  }
-  const Moments& first = bootstrap.luminance();
-  const double n0 = static_cast<double>(first.count);
-  const double n1 = weight * static_cast<double>(total.largeSteps.count);
-  const double brightness = (n0 * first.mean() + n1 * total.largeSteps.mean()) / (n0 + n1);
-  const double mutations = static_cast<double>(total.mutations);
-
-  RenderResult result;
-  result.sampleUnit = "mutations";
-  result.image = film.develop(mutations > 0 ? brightness / mutations : 0);
-  result.samples = total.mutations;
-  result.meanLuminance = brightness;
-  result.meanLuminanceError =
-      std::hypot(n0 * first.standardError(), n1 * total.largeSteps.standardError()) / (n0 + n1);
-  result.statistics = total.json(work[0].kernels.kindNames());
-  result.statistics["chains"] = chains;
-  result.statistics["chains that never moved"] = neverMoved;
-  result.statistics["bootstrap"] = {{"samples", first.count},
-                                    {"mean luminance", first.mean()},
-                                    {"standard error", first.standardError()},
-                                    {"not finite", bootstrap.notFinite()}};
-  result.statistics["large steps"] = {{"mean luminance", total.largeSteps.mean()},
-                                      {"standard error", total.largeSteps.standardError()},
-                                      {"weight", weight}};
-  return result;
-}
 
 RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderRequest& request) {
   RenderClock clock;
@@ -159,58 +92,25 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
     return directAlone();
   }
 
-  const SceneTarget target(scene, maxLength);
-  TechniqueDistribution techniques(minLength, maxLength);
-  {
-    const std::vector<double>& weights = bootstrap.techniqueLuminance();
-    techniques.setWeights(weights, std::vector<bool>(weights.size(), true));
-  }
-
-  const bool bidirectional = options_.string("largeStep") == "bidirectional";
-  const int groups = groupCount(scene.film);
-  const int chainCount = std::max(options_.integer("chains"), 1);
-  std::vector<ChainGroup> work;
-  work.reserve(static_cast<std::size_t>(groups));
-  for (int g = 0; g < groups; ++g) {
-    KernelMixture kernels;
-    if (bidirectional)
-      kernels.large = std::make_unique<BidirectionalLargeStep>(target, minLength);
-    else
-      kernels.large = std::make_unique<MultiplexedLargeStep>(target, techniques);
-    kernels.largeProbability = options_.number("largeStepProbability");
-    kernels.small = method_.smallSteps(target, options_);
-    const int kinds = kernels.kinds();
-    work.push_back(
-        {Film(scene.film), std::move(kernels), ChainStatistics(kinds, maxLength), {}, {}});
-  }
-  parallelFor(request.threads, groups, [&](int g) {
-    Path start(maxLength);
-    for (int c = g; c < chainCount; c += groups) {
-      Random random(request.seed, kStartStream, static_cast<std::uint64_t>(c));
-      bootstrap.drawStart(random, start);
-      work[static_cast<std::size_t>(g)].chains.push_back(std::make_unique<Chain>(
-          target, start, Random(request.seed, kChainStream, static_cast<std::uint64_t>(c))));
-    }
-  });
-
+  ChainEnsemble chains(scene, method_, options_, bootstrap, minLength, maxLength, request);
   RoundsPlan plan;
   plan.unit = "mutations";
-  plan.unitsPerRound = static_cast<double>(chainCount) * kRound;
+  plan.unitsPerRound = static_cast<double>(chains.chains()) * kRound;
   long long stepsPerChain = 0;  // 0: by time
   if (request.budget.seconds > 0) {
     plan.seconds = request.budget.seconds;
     plan.marks = request.marks;
   } else {
     stepsPerChain = static_cast<long long>(
-        std::ceil(static_cast<double>(mutationsPerPixel) * pixels / chainCount));
+        std::ceil(static_cast<double>(mutationsPerPixel) * pixels / chains.chains()));
     plan.rounds = (stepsPerChain + kRound - 1) / kRound;
     for (const double mark : request.marks)
-      plan.marks.push_back(mark * pixels / chainCount / kRound);
+      plan.marks.push_back(mark * pixels / chains.chains() / kRound);
   }
   RenderRequest chainRequest = request;
-  const double weight = bidirectional ? 1 : largeStepWeight(bootstrap, techniques);
-  plan.atMark = [&](std::size_t mark, const RoundsResult&) {
-    callMark(mark, chainResult(scene, work, maxLength, bootstrap, weight));
+  plan.atMark = [&](std::size_t mark, const RoundsResult&) { callMark(mark, chains.result()); };
+  plan.betweenRounds = [&] {
+    if (chains.epochIsOver()) chains.nextEpoch(split ? &direct.image() : nullptr);
   };
   // Stopped before the chains began: one round, so that the image is whole.
   const std::atomic<bool> goOn{false};
@@ -220,16 +120,12 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
     plan.marks.clear();
   }
   const RoundsResult rounds =
-      runRounds(chainRequest, clock, groups, plan, [&](int index, long long round) {
-        ChainGroup& group = work[static_cast<std::size_t>(index)];
-        const long long steps =
-            stepsPerChain > 0 ? std::min(kRound, stepsPerChain - round * kRound) : kRound;
-        for (const auto& chain : group.chains)
-          for (long long i = 0; i < steps; ++i)
-            chain->step(group.kernels, group.film, group.statistics, group.context);
+      runRounds(chainRequest, clock, chains.groups(), plan, [&](int group, long long round) {
+        chains.run(group,
+                   stepsPerChain > 0 ? std::min(kRound, stepsPerChain - round * kRound) : kRound);
       });
 
-  RenderResult result = chainResult(scene, work, maxLength, bootstrap, weight);
+  RenderResult result = chains.result();
   result.interrupted = rounds.interrupted;
   return finished(std::move(result));
 }

@@ -22,6 +22,9 @@ inline constexpr Parameter kMetropolisParameters[] = {
     {"largeStep", ParameterType::kString, "bidirectional",
      "what a large step proposes: a connection of a whole bidirectional sample, or one technique",
      "bidirectional|multiplexed"},
+    {"importanceMap", ParameterType::kBoolean, "true",
+     "let chains spend as many mutations on dark parts of the picture as on bright ones, as far as "
+     "the picture is known by then"},
     {"lensProbability", ParameterType::kNumber, "0.3",
      "share of lens perturbations among the other steps"},
     {"lensSigma", ParameterType::kNumber, "0.01",

@@ -49,6 +49,25 @@ struct MutationContext {
   bool timed = false;  // this mutation's phases are measured
 };
 
+// A film, and the sum of the luminances splatted on it.
+struct SummedFilm {
+  Film film;
+  double luminance = 0;
+
+  void splat(float filmX, float filmY, const Rgbf& value) {
+    film.splat(filmX, filmY, value);
+    luminance += h2mc::luminance(value);
+  }
+  void merge(const SummedFilm& other) {
+    film.merge(other.film);
+    luminance += other.luminance;
+  }
+  void clear() {
+    film.clear();
+    luminance = 0;
+  }
+};
+
 // A proposal kernel. It makes proposals and says their densities; acceptance, splatting and
 // statistics are the chain's.
 class Mutation {
@@ -64,15 +83,16 @@ class Mutation {
                        double& logRatio) = 0;
 
   // Adds the last proposal to a film, with the probability of its acceptance as weight: the path's
-  // contribution over its target. A mutation that knows what else it might as well have proposed
-  // adds the average of that.
-  virtual void splatProposal(const ChainState& proposed, double weight, Film& film) const {
-    splatPath(proposed.path, weight, film);
+  // contribution over its target and `shared` (see KernelMixture). A mutation that knows what else
+  // it might as well have proposed adds the average of that.
+  virtual void splatProposal(const ChainState& proposed, double weight, double shared,
+                             SummedFilm& film) const {
+    splatPath(proposed.path, weight, shared, film);
   }
 
-  static void splatPath(const Path& path, double weight, Film& film) {
+  static void splatPath(const Path& path, double weight, double shared, SummedFilm& film) {
     film.splat(path.filmX, path.filmY,
-               path.contribution * static_cast<float>(weight / path.target));
+               path.contribution * static_cast<float>(weight / (path.target + shared)));
   }
 };
 

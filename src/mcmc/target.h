@@ -1,6 +1,8 @@
 // What a chain samples: a non-negative function on the union of all techniques' primary spaces.
 #pragma once
 
+#include "mcmc/importance_map.h"
+#include "render/path/bidirectional.h"
 #include "render/path/derivative.h"
 #include "render/path/path.h"
 
@@ -17,11 +19,24 @@ class Target {
   virtual int maxLength() const = 0;
 };
 
-// The luminance of a scene's MIS-weighted contribution.
+// The luminance of a scene's MIS-weighted contribution, times the film's importance there.
 class SceneTarget final : public Target {
  public:
-  SceneTarget(const Scene& scene, int maxLength) : scene_(scene), maxLength_(maxLength) {}
-  bool evaluate(Path& path) const override { return tracePath(scene_, path); }
+  // Keeps references; the map may change between a chain's steps, whose state must then be evaluated
+  // again.
+  SceneTarget(const Scene& scene, int maxLength, const ImportanceMap& importance)
+      : scene_(scene), maxLength_(maxLength), importance_(importance) {}
+  bool evaluate(Path& path) const override { return tracePath(scene_, path) && weigh(path); }
+  // For mutations that trace paths in parts: after joinSubpaths. Returns path.target > 0.
+  bool weigh(Path& path) const {
+    path.target *= importance_(path.filmX, path.filmY);
+    return path.target > 0;
+  }
+  // Of what a connection contributes.
+  double target(const BidirectionalSampler::Connection& c) const {
+    return double(luminance(c.contribution)) * importance_(c.filmX, c.filmY);
+  }
+  // Of the luminance alone: the importance varies little within a proposal's reach.
   bool differentiate(const Path& path, Derivative& result) const override {
     return h2mc::differentiate(scene_, path, result);
   }
@@ -31,6 +46,7 @@ class SceneTarget final : public Target {
  private:
   const Scene& scene_;
   int maxLength_;
+  const ImportanceMap& importance_;
 };
 
 }  // namespace h2mc

@@ -103,7 +103,8 @@ void mutation(benchmark::State& state, const std::string& file, int length,
               const std::function<std::unique_ptr<Mutation>(const SceneTarget&)>& make) {
   const SampledScene* sampled = sampledScene(file);
   if (!sampled) return state.SkipWithError("no such scene");
-  const SceneTarget target(sampled->scene, kMaxLength);
+  const ImportanceMap everywhere;
+  const SceneTarget target(sampled->scene, kMaxLength, everywhere);
   const std::unique_ptr<Mutation> kernel = make(target);
   std::map<const Path*, ChainState> states;
   ChainState proposed(kMaxLength);

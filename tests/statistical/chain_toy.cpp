@@ -127,7 +127,7 @@ TEST_P(ChainOnToy, KeepsTheDistribution) {
   constexpr int kChains = 60000, kSteps = 25;
   const Histograms expected = Histograms::expected();
   Histograms seen;
-  Film film(FilmSettings{4, 4, {}});
+  ChainFilms films(FilmSettings{4, 4, {}});
   ChainStatistics statistics(kernels.kinds(), 2);
   MutationContext context;
   Random random(7, 0, 0);
@@ -141,7 +141,7 @@ TEST_P(ChainOnToy, KeepsTheDistribution) {
       target.evaluate(start);
     } while (start.target < 20 * random.uniform());
     Chain chain(target, start, Random(11, static_cast<std::uint64_t>(c), 0));
-    for (int i = 0; i < kSteps; ++i) chain.step(kernels, film, statistics, context);
+    for (int i = 0; i < kSteps; ++i) chain.step(kernels, films, statistics, context);
     seen.count(chain.path());
   }
 

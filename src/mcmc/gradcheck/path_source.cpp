@@ -104,7 +104,8 @@ std::vector<SampledPath> sampleChains(const Scene& scene, int maxLength, int cou
   if (count <= 0) return {};
   const Bootstrap bootstrap(scene, 1, maxLength, kBootstrapSamples, seed, threads);
   if (!(bootstrap.luminance().mean() > 0)) return {};
-  const SceneTarget target(scene, maxLength);
+  const ImportanceMap everywhere;
+  const SceneTarget target(scene, maxLength, everywhere);
   const MetropolisMethod method = h2mcMethod();
   const OptionSet options(method.plugin);
   const int chains = std::min(kChains, count);
@@ -118,7 +119,7 @@ std::vector<SampledPath> sampleChains(const Scene& scene, int maxLength, int cou
     MutationContext context;
     FilmSettings settings = scene.film;  // nobody looks at the picture
     settings.width = settings.height = 1;
-    Film film(settings);
+    ChainFilms films(settings);
     Path start(maxLength);
     Random random(seed, kStartStream, static_cast<std::uint64_t>(c));
     bootstrap.drawStart(random, start);
@@ -128,7 +129,7 @@ std::vector<SampledPath> sampleChains(const Scene& scene, int maxLength, int cou
       // A little longer where it has not moved: the same path twice says nothing new.
       const PrimarySample before = chain.path().sample;
       for (int tries = 0; tries < 4 && (tries == 0 || chain.path().sample.u == before.u); ++tries)
-        for (int i = 0; i < kStride; ++i) chain.step(kernels, film, statistics, context);
+        for (int i = 0; i < kStride; ++i) chain.step(kernels, films, statistics, context);
       found[static_cast<std::size_t>(c)].push_back(
           {PathOrigin::kChain,
            (static_cast<std::uint64_t>(c) << 32) + static_cast<std::uint64_t>(k),

@@ -17,9 +17,8 @@ constexpr Parameter kConserve = {"ensureEnergyConservation", kBoolean, "true",
 constexpr Parameter kSpecular = {"specularReflectance", kTexture, "1", "factor of the reflection"};
 constexpr Parameter kTransmittance = {"specularTransmittance", kTexture, "1",
                                       "factor of the transmission"};
-constexpr Parameter kDistribution = {"distribution", kString, "beckmann",
-                                     "of the facets' normals (phong and as are not supported)",
-                                     "beckmann|ggx|phong|as"};
+constexpr Parameter kDistribution = {"distribution", kString, "beckmann", "of the facets' normals",
+                                     "beckmann|ggx"};
 constexpr Parameter kAlpha = {"alpha", kNumber, "0.1",
                               "roughness: the facets' root mean square slope"};
 constexpr Parameter kAlphaU = {"alphaU", kNumber, "0.1", "roughness along u, the same as along v"};
@@ -115,12 +114,7 @@ float roughness(const Properties& p, std::string_view name) {
 
 Microfacet readFacets(const Properties& p, bool anisotropic) {
   Microfacet facets;
-  const std::string distribution = p.string("distribution");
-  if (distribution == "ggx")
-    facets.distribution = FacetDistribution::kGgx;
-  else if (distribution != "beckmann")
-    p.fail("distribution", "the distribution \"" + distribution +
-                               "\" is not supported; there are beckmann and ggx");
+  if (p.string("distribution") == "ggx") facets.distribution = FacetDistribution::kGgx;
   facets.alpha = roughness(p, "alpha");
   if (anisotropic && (p.given("alphaU") || p.given("alphaV"))) {
     if (p.given("alpha")) p.fail("alpha", "give either alpha, or alphaU and alphaV");

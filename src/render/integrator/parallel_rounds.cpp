@@ -72,6 +72,7 @@ RoundsResult runRounds(const RenderRequest& request, const RenderClock& clock, i
       break;
     }
     if (timed && result.rounds > 0 && reached(plan.seconds)) break;
+    if (result.rounds > 0 && plan.betweenRounds) plan.betweenRounds();
     parallelFor(request.threads, groups, [&](int group) { work(group, result.rounds); });
     ++result.rounds;
     if (request.progress) {

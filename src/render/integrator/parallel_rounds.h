@@ -39,6 +39,8 @@ struct RoundsPlan {
   // is reached, in order. It may exclude its time from the clock.
   std::vector<double> marks;
   std::function<void(std::size_t mark, const RoundsResult&)> atMark;
+  // Called between one round and the next; may be empty.
+  std::function<void()> betweenRounds;
 };
 
 // Calls work(group, round) for all groups of a round in parallel, round after round, until the plan

@@ -12,8 +12,13 @@
 
 namespace h2mc {
 
-// Most coordinates of the plain form: paths of up to 8 edges, and time.
-inline constexpr int kMaxDerivativeDimension = 17;
+// The longest paths of the plain form, in edges. Builds that are there to find mistakes, such as those
+// under the sanitizers, make do with fewer: each takes a minute to compile.
+#ifndef H2MC_DERIVATIVE_EDGES
+#define H2MC_DERIVATIVE_EDGES 8
+#endif
+// Its coordinates: two an edge, and time.
+inline constexpr int kMaxDerivativeDimension = 2 * H2MC_DERIVATIVE_EDGES + 1;
 
 struct Derivative {
   int dimension = 0;
