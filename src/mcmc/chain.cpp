@@ -21,6 +21,7 @@ std::string describe(const Path& path) {
   text += " choice=";
   for (int i = 0; i < path.technique.choices(); ++i)
     text += fmt::format("{}{:a}", i ? "," : "", path.sample.choice[static_cast<std::size_t>(i)]);
+  if (path.sample.time > 0) text += fmt::format(" time={:a}", path.sample.time);
   return text;
 }
 

@@ -11,6 +11,7 @@ bool MultiplexedLargeStep::propose(ChainState& current, ChainState& proposed,
   const int index = techniques_.choose(random.uniform());
   Path& path = proposed.path;
   path.technique = techniques_.technique(index);
+  path.sample.time = target_.hasTime() ? random.uniform() : 0;
   for (int i = 0; i < path.technique.dimension(); ++i)
     path.sample.u[static_cast<std::size_t>(i)] = random.uniform();
   for (int i = 0; i < path.technique.choices(); ++i)

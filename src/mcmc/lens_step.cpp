@@ -88,7 +88,7 @@ bool LensStep::follow(Path& path, const Path& known, int i) const {
   TracedVertex& next = path.camera[at(i) + 1];
   next.id = known.camera[at(i) + 1].id;
   next.lobe = known.camera[at(i) + 1].lobe;
-  next.vertex = arriveAt<float>(scene, ray, next.id);
+  next.vertex = arriveAt<float>(scene, ray, next.id, &path.sample.time);
   return true;
 }
 
@@ -152,7 +152,8 @@ bool LensStep::propose(ChainState& current, ChainState& proposed, MutationContex
       if (!aim(to, i, direction, random)) return false;
       if (i == reconnection) {
         const SurfacePoint<float>& point = to.camera[at(i)].vertex.point;
-        if (escapes ? !pointEscapes(scene, point, direction) : !pointsVisible(scene, point, next))
+        if (escapes ? !pointEscapes(scene, point, direction, to.sample.time)
+                    : !pointsVisible(scene, point, next, to.sample.time))
           return false;
       }
       if (!follow(to, from, i)) return false;

@@ -1,5 +1,6 @@
 #include "mcmc/small_step.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/integrator/parallel_rounds.h"
@@ -11,6 +12,12 @@ namespace {
 float wrap(float x) {
   const float y = x - std::floor(x);
   return y < 1 ? y : 0;
+}
+
+// x reflected at 0 and at 1, as often as it takes.
+float reflect(float x) {
+  const float y = std::abs(x) - 2 * std::floor(std::abs(x) / 2);
+  return std::min(y < 1 ? y : 2 - y, std::nextafter(1.f, 0.f));
 }
 
 bool wrapsAt(CoordinateMask wraps, int i) { return (wraps >> i) & 1; }
@@ -42,11 +49,16 @@ void offsetBetween(const PrimarySample& from, const PrimarySample& to, int dimen
   }
 }
 
-float IsotropicStep::perturb(float value, Random& random) const {
-  if (shape_ == StepShape::kGaussian) return wrap(value + sigma_ * random.normal());
+bool addToTime(const PrimarySample& from, float offset, PrimarySample& to) {
+  to.time = from.time + offset;
+  return to.time >= 0 && to.time < 1;
+}
+
+float IsotropicStep::offset(Random& random) const {
+  if (shape_ == StepShape::kGaussian) return sigma_ * random.normal();
   constexpr float kSmallest = 1.f / 1024, kLargest = 1.f / 64;
   const float step = kLargest * std::exp(-std::log(kLargest / kSmallest) * random.uniform());
-  return wrap(random.next() & 1 ? value + step : value - step);
+  return random.next() & 1 ? step : -step;
 }
 
 bool IsotropicStep::propose(ChainState& current, ChainState& proposed, MutationContext& context,
@@ -56,12 +68,14 @@ bool IsotropicStep::propose(ChainState& current, ChainState& proposed, MutationC
   to.technique = from.technique;
   for (int i = 0; i < from.technique.dimension(); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    to.sample.u[k] = perturb(from.sample.u[k], *context.random);
+    to.sample.u[k] = wrap(from.sample.u[k] + offset(*context.random));
   }
   for (int i = 0; i < from.technique.choices(); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    to.sample.choice[k] = perturb(from.sample.choice[k], *context.random);
+    to.sample.choice[k] = wrap(from.sample.choice[k] + offset(*context.random));
   }
+  to.sample.time = from.sample.time;
+  if (target_.hasTime()) to.sample.time = reflect(from.sample.time + offset(*context.random));
   logRatio = 0;
   return target_.evaluate(to);
 }
@@ -69,7 +83,7 @@ bool IsotropicStep::propose(ChainState& current, ChainState& proposed, MutationC
 void HamiltonianStep::prepare(ChainState& state, MutationContext& context) const {
   if (state.hasGaussian) return;
   state.hasGaussian = true;
-  const int dimension = state.path.technique.dimension();
+  const int dimension = state.path.dimension();
   if (dimension > kMaxDerivativeDimension) {
     ++context.derivatives.dimension;
     return;
@@ -89,32 +103,49 @@ void HamiltonianStep::prepare(ChainState& state, MutationContext& context) const
   }
 }
 
+double HamiltonianStep::logDensity(const ChainState& state, const float* offset) const {
+  double sum = state.gaussian.logDensity(offset);
+  if (target_.hasTime() && !state.path.moving) {
+    const double sigma = settings_.sigma, time = offset[state.path.technique.dimension()];
+    sum -= 0.5 * squared(time / sigma) + std::log(sigma);
+  }
+  return sum;
+}
+
 bool HamiltonianStep::propose(ChainState& current, ChainState& proposed, MutationContext& context,
                               double& logRatio) {
   const Path& from = current.path;
   Path& to = proposed.path;
   const int dimension = from.technique.dimension();
+  // The same for both states: even dimensions are the technique's own, an odd one more is time.
+  const bool differentiable = from.dimension() <= kMaxDerivativeDimension;
+  const bool hasTime = target_.hasTime();
   prepare(current, context);
-  float offset[2 * kMaxPathLength];
-  if (dimension > kMaxDerivativeDimension) {
-    // Longer than the derivative goes: the prior, which is symmetric.
-    for (int i = 0; i < dimension; ++i) offset[i] = settings_.sigma * context.random->normal();
-  } else {
+  float offset[2 * kMaxPathLength + 1];
+  int drawn = 0;
+  if (differentiable) {
     current.gaussian.sample(*context.random, offset);
+    drawn = current.gaussian.dimension;
   }
+  // Longer than the derivative goes, or time alone: the prior, which is symmetric.
+  for (int i = drawn; i < dimension + hasTime; ++i)
+    offset[i] = settings_.sigma * context.random->normal();
   to.technique = from.technique;
   to.sample.choice = from.sample.choice;
+  to.sample.time = from.sample.time;
+  if (hasTime && !addToTime(from.sample, offset[dimension], to.sample)) return false;
   if (!addOffset(from.sample, offset, dimension, from.wraps, to.sample) || !target_.evaluate(to))
     return false;
   // The way back must be one that the reverse proposal can take.
   if (to.wraps != from.wraps) return false;
   logRatio = 0;
-  if (dimension > kMaxDerivativeDimension) return true;
+  if (!differentiable) return true;
   prepare(proposed, context);
-  float forward[kMaxDerivativeDimension], back[kMaxDerivativeDimension];
+  float forward[kMaxDerivativeDimension + 1], back[kMaxDerivativeDimension + 1];
   offsetBetween(from.sample, to.sample, dimension, from.wraps, forward);
-  for (int i = 0; i < dimension; ++i) back[i] = -forward[i];
-  logRatio = proposed.gaussian.logDensity(back) - current.gaussian.logDensity(forward);
+  forward[dimension] = to.sample.time - from.sample.time;
+  for (int i = 0; i <= dimension; ++i) back[i] = -forward[i];
+  logRatio = logDensity(proposed, back) - logDensity(current, forward);
   return true;
 }
 

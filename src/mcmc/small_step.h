@@ -16,14 +16,17 @@ bool addOffset(const PrimarySample& from, const float* offset, int dimension, Co
 void offsetBetween(const PrimarySample& from, const PrimarySample& to, int dimension,
                    CoordinateMask wraps, float* offset);
 
+// The same for time, which does not wrap: false outside [0, 1).
+bool addToTime(const PrimarySample& from, float offset, PrimarySample& to);
+
 // How far an isotropic step goes in each coordinate.
 enum class StepShape {
   kGaussian,  // normal with standard deviation sigma
   kKelemen,   // exponential between 1/1024 and 1/64 [Kelemen et al. 2002]
 };
 
-// Symmetric steps in all coordinates, discrete choices included. All coordinates wrap, which is
-// symmetric whatever the target does at the borders.
+// Symmetric steps in all coordinates, discrete choices and time included. All coordinates wrap, which is
+// symmetric whatever the target does at the borders, but for time: it is reflected there.
 class IsotropicStep final : public Mutation {
  public:
   IsotropicStep(const Target& target, StepShape shape, float sigma)
@@ -33,7 +36,7 @@ class IsotropicStep final : public Mutation {
                double& logRatio) override;
 
  private:
-  float perturb(float value, Random& random) const;
+  float offset(Random& random) const;
 
   const Target& target_;
   StepShape shape_;
@@ -42,6 +45,10 @@ class IsotropicStep final : public Mutation {
 
 // Steps drawn from hamiltonianGaussian() at the state; choices stay as they are. Where there are no
 // derivatives the Gaussian is the prior.
+//
+// Where the target has time, it always moves along. The Gaussian covers it if the path depends on it,
+// and otherwise it is drawn from a prior of its own, N(0, sigma^2). Either way a proposal is drawn from
+// a density over the same space, whether or not the other state's path depends on time.
 class HamiltonianStep final : public Mutation {
  public:
   HamiltonianStep(const Target& target, const HamiltonianSettings& settings)
@@ -52,6 +59,8 @@ class HamiltonianStep final : public Mutation {
 
  private:
   void prepare(ChainState& state, MutationContext& context) const;
+  // Of an offset in the technique's coordinates, and in time after them where the target has it.
+  double logDensity(const ChainState& state, const float* offset) const;
 
   const Target& target_;
   HamiltonianSettings settings_;

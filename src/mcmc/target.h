@@ -17,6 +17,9 @@ class Target {
   // Derivatives of log(path.target); false where they are not to be had (too many coordinates).
   virtual bool differentiate(const Path& path, Derivative& result) const = 0;
   virtual int maxLength() const = 0;
+  // Whether time is a further coordinate of every state: PrimarySample::time in [0, 1). Derivatives
+  // have it as their last coordinate where path.moving.
+  virtual bool hasTime() const { return false; }
 };
 
 // The luminance of a scene's MIS-weighted contribution, times the film's importance there.
@@ -41,6 +44,7 @@ class SceneTarget final : public Target {
     return h2mc::differentiate(scene_, path, result);
   }
   int maxLength() const override { return maxLength_; }
+  bool hasTime() const override { return scene_.moving; }
   const Scene& scene() const { return scene_; }
 
  private:

@@ -39,7 +39,7 @@ std::vector<Case> cases() {
   for (const char* scene :
        {"checker_point", "conductor", "dielectric_constant", "diffuse_area", "envmap",
         "fov_y_gaussian", "phong", "plastic", "roughconductor_beckmann", "roughconductor_ggx",
-        "roughdielectric", "roughplastic", "white_furnace_phong"})
+        "roughdielectric", "roughplastic", "white_furnace_phong", "motion_translate"})
     list.push_back(
         {scene, "path", std::string(scene) == "roughconductor_beckmann" ? 48 : 12, 4e-3});
   for (const char* scene : {"diffuse_area", "plastic", "roughdielectric", "dielectric_constant"}) {
@@ -48,6 +48,8 @@ std::vector<Case> cases() {
       list.push_back(
           {scene, integrator, 8, 1.5e-2, {{"bootstrapSamples", "15000"}, {"chains", "256"}}});
   }
+  list.push_back(
+      {"motion_translate", "h2mc", 8, 1.5e-2, {{"bootstrapSamples", "15000"}, {"chains", "256"}}});
   // Of the large scenes the mean is known to a tenth of this by "Accuracy" in the README.
   const std::vector<std::pair<std::string, std::string>> chains{{"bootstrapSamples", "50000"},
                                                                 {"chains", "256"}};
