@@ -2,9 +2,10 @@
 // with a verdict that tells a wrong derivative from a difference that cannot judge.
 //
 // The coordinates of one function may vary on scales from 1 to 1e-6, so errors are measured per
-// coordinate: with s_i = max(1, root of the largest |H_ij| of row i), the inverse length on which f
-// varies along i, the error of g_i is relative to max(|g_i|, s_i) and that of H_ij to
-// max(|H_ij|, s_i s_j).
+// coordinate: with s_i >= 1, the inverse length on which f varies along i, the error of g_i is relative
+// to max(|g_i|, s_i) and that of H_ij to max(|H_ij|, s_i s_j). The s_i are those that bring the largest
+// |H_ij| / (s_i s_j) of every row to 1, or as near to it as s_i >= 1 lets them (Ruiz, "A scaling
+// algorithm to equilibrate both rows and columns norms in matrices", 2001).
 //
 // Steps begin at the coordinates' lengths 1 / s_i; that is all that the differences know of what they
 // check. An entry whose difference has an estimated error above the tolerance is not judged:

@@ -83,9 +83,9 @@ void printFailures(const GradcheckOptions& options, const GradcheckResult& resul
                             what.empty() ? "" : "; ", settings.forms[k].name, p.forms[k].value,
                             p.forms[k].gradient, p.forms[k].hessian);
     fmt::print(stderr,
-               "h2mc: out of tolerance, {} path {} of seed {}: {}\n"
+               "h2mc: out of tolerance, {} (seed {}): {}\n"
                "  h2mc gradcheck {} --replay \"{}\"\n",
-               nameOf(p.path.origin), p.path.index, settings.seed, what, options.scene,
+               nameOf(p.path), settings.seed, what, options.scene,
                pathText(p.path.technique, p.path.sample));
   }
 }

@@ -6,15 +6,17 @@
 #include <cmath>
 #include <filesystem>
 
-#include "ad/finite_difference.h"
+#include "mcmc/gradcheck/gradcheck.h"
 #include "mcmc/integrators.h"
-#include "render/path/derivative.h"
+#include "render/path/path_text.h"
 #include "render/path/replay.h"
 #include "render/scene/scene_reader.h"
 #include "sampled_paths.h"
 
 namespace h2mc {
 namespace {
+
+constexpr int kPaths = 150;  // of each scene, checked against differences
 
 struct Case {
   const char* name;
@@ -83,59 +85,30 @@ TEST_P(PathDerivative, FrozenTopologyGivesTheTracedValue) {
 }
 
 TEST_P(PathDerivative, SlowAgreesWithFiniteDifferences) {
-  int judged = 0, unjudged = 0, wrong = 0, notFinite = 0;
-  int wrongBefore = 0;
-  forPaths(6, 2000, [&](const Path& path) {
-    const int n = path.technique.dimension();
-    Derivative d;
-    ASSERT_TRUE(differentiate(*scene_, path, d));
-    if (!d.finite()) {
-      ++notFinite;
-      return;
-    }
-    double u[kMaxDerivativeDimension];
-    std::copy_n(path.sample.u.begin(), n, u);
-    // Two sweeps of steps, a hundred times apart. Where a texel's or a triangle's border lies within
-    // the larger one they disagree, and nothing can be judged.
-    const auto f = [&](const double* x) { return replayLogTarget<double>(*scene_, path, x); };
-    const auto fd = ad::finiteDifferences(f, u, n, 1e-5);
-    const auto wide = ad::finiteDifferences(f, u, n, 1e-3);
-    double gradientScale = 1, hessianScale = 1;
-    for (int i = 0; i < n; ++i)
-      gradientScale = std::max(gradientScale, double(std::abs(d.gradient[i])));
-    for (int i = 0; i < n * (n + 1) / 2; ++i)
-      hessianScale = std::max(hessianScale, double(std::abs(d.hessian[i])));
-    for (int i = 0, k = 0; i < n; ++i) {
-      const auto& g = fd.gradient[static_cast<std::size_t>(i)];
-      const auto& g2 = wide.gradient[static_cast<std::size_t>(i)];
-      if (std::max(g.error, std::abs(g.value - g2.value)) <= 1e-3 * gradientScale) {
-        ++judged;
-        wrong += !(std::abs(d.gradient[i] - g.value) <= 1e-2 * gradientScale + 10 * g.error);
-      } else {
-        ++unjudged;
-      }
-      for (int j = 0; j <= i; ++j, ++k) {
-        const auto& h = fd.hessian[static_cast<std::size_t>(i * n + j)];
-        const auto& h2 = wide.hessian[static_cast<std::size_t>(i * n + j)];
-        if (std::max(h.error, std::abs(h.value - h2.value)) <= 1e-2 * hessianScale) {
-          ++judged;
-          wrong += !(std::abs(d.hessian[k] - h.value) <= 2e-2 * hessianScale + 10 * h.error);
-        } else {
-          ++unjudged;
-        }
-      }
-    }
-    if (wrong > wrongBefore)
-      std::printf("wrong: s=%d t=%d, log target %g, %d entries, largest %g\n", path.technique.s,
-                  path.technique.t, std::log(double(path.target)), wrong - wrongBefore,
-                  hessianScale);
-    wrongBefore = wrong;
-  });
-  std::printf("%s: %d entries judged, %d not, %d wrong; %d paths not finite\n", GetParam().name,
-              judged, unjudged, wrong, notFinite);
-  EXPECT_GT(judged, 500);
-  // Where a kink lies inside the differences' steps they can be confident and wrong.
-  EXPECT_LE(wrong, judged / 200);
+  GradcheckSettings settings;
+  settings.maxLength = GetParam().maxLength;
+  long long agree = 0, unjudged = 0;
+  int rounding = 0, wrongInFloat = 0;
+  const std::vector<SampledPath> paths =
+      sampleBidirectional(*scene_, settings.maxLength, kPaths, 5);
+  ASSERT_EQ(static_cast<int>(paths.size()), kPaths);
+  for (const SampledPath& sampled : paths) {
+    const PathCheck check = checkPath(*scene_, sampled, settings);
+    const std::string text = pathText(sampled.technique, sampled.sample);
+    EXPECT_TRUE(check.traced && check.finite) << text;
+    EXPECT_EQ(check.wrong, 0) << text;
+    EXPECT_NE(check.forms[0].verdict, FormVerdict::kUnsupported);
+    agree += check.agree;
+    unjudged += check.noisy + check.kinked;
+    rounding += check.forms[0].verdict == FormVerdict::kRounding;
+    wrongInFloat += check.forms[0].verdict == FormVerdict::kWrong ||
+                    check.forms[0].verdict == FormVerdict::kNotFinite;
+  }
+  std::printf("%s: %lld entries agree, %lld not judged; float: %d paths rounding, %d wrong\n",
+              GetParam().name, agree, unjudged, rounding, wrongInFloat);
+  EXPECT_GT(agree, 8 * unjudged);
+  // Where float takes the other side of a kink, all of its neighbours may.
+  EXPECT_LE(wrongInFloat, kPaths / 20);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, PathDerivative, testing::ValuesIn(cases()),

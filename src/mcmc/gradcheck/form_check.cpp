@@ -13,6 +13,10 @@ namespace {
 // length on which the target varies, but some units of the coordinates' last place.
 constexpr int kNeighbours = 16;
 constexpr double kDistance = 0x1p-6, kShortest = 0x1p-22;
+// How much more than the value's a derivative's relative error may be, when both are rounding.
+constexpr double kMagnified = 10;
+// Where float's range ends, a target has no more digits.
+constexpr float kSmallestTarget = 1e-36f;
 constexpr std::uint64_t kStream = 0x677267;
 
 // Sums over the neighbours of float minus double, entry by entry.
@@ -71,15 +75,18 @@ FormCheck checkForm(const Scene& scene, const Path& path, const ad::DerivativeVa
     result.verdict = FormVerdict::kNotFinite;
     return result;
   }
-  const double gradientScale = std::max(1.0, norm(exact.gradient, false));
   const double hessianScale = std::max(1.0, norm(exact.hessian, true));
+  const double gradientScale = std::max(std::sqrt(hessianScale), norm(exact.gradient, false));
   result.value = static_cast<float>(std::abs(found.value - exact.value));
   result.gradient =
       static_cast<float>(distance(found.gradient, exact.gradient, false) / gradientScale);
   result.hessian = static_cast<float>(distance(found.hessian, exact.hessian, true) / hessianScale);
   const double tolerance = settings.floatTolerance;
   const auto within = [&](double error) { return error <= tolerance; };
-  if (within(result.value) && within(result.gradient) && within(result.hessian)) {
+  // The value of the float path itself is no business of the derivative's.
+  const bool valueRight =
+      within(result.value) || within(std::abs(found.value - std::log(double(path.target))));
+  if (valueRight && within(result.gradient) && within(result.hessian)) {
     result.verdict = FormVerdict::kAgrees;
     return result;
   }
@@ -109,15 +116,16 @@ FormCheck checkForm(const Scene& scene, const Path& path, const ad::DerivativeVa
     ad::DerivativeValues inFloat;
     if (!there.finite() || !form.differentiate(scene, near, inFloat) || !inFloat.finite()) continue;
     ++count;
-    value.add({inFloat.value}, {there.value});
+    value.add({std::log(double(near.target))}, {there.value});
     gradient.add(inFloat.gradient, there.gradient);
     hessian.add(inFloat.hessian, there.hessian);
   }
+  const double allowed = tolerance + kMagnified * std::sqrt(value.squares[0] / std::max(count, 1));
   const bool rounding =
-      count >= kNeighbours / 2 &&
-      (within(result.value) || isRounding(value, count, tolerance, false)) &&
-      (within(result.gradient) || isRounding(gradient, count, tolerance * gradientScale, false)) &&
-      (within(result.hessian) || isRounding(hessian, count, tolerance * hessianScale, true));
+      path.target < kSmallestTarget ||
+      (valueRight && count >= kNeighbours / 2 &&
+       (within(result.gradient) || isRounding(gradient, count, allowed * gradientScale, false)) &&
+       (within(result.hessian) || isRounding(hessian, count, allowed * hessianScale, true)));
   result.verdict = rounding ? FormVerdict::kRounding : FormVerdict::kWrong;
   return result;
 }

@@ -35,6 +35,19 @@ std::uint32_t bsdfBits(const Scene& scene, const std::vector<TracedVertex>& vert
 
 }  // namespace
 
+std::string nameOf(const SampledPath& path) {
+  switch (path.origin) {
+    case PathOrigin::kBidirectional:
+      return "bdpt sample " + std::to_string(path.index);
+    case PathOrigin::kChain:
+      return "chain " + std::to_string(path.index >> 32) + ", state " +
+             std::to_string(path.index & 0xffffffffu);
+    case PathOrigin::kGiven:
+      break;
+  }
+  return "given";
+}
+
 PathTraits traitsOf(const Scene& scene, const Path& path) {
   PathTraits traits;
   const auto [s, t] = path.technique;

@@ -5,12 +5,15 @@
 //  - The AD type in double with finite differences of the same contribution in double
 //    (ad/derivative_check.h: how entries are judged and what errors are relative to).
 //  - Each form of the float derivatives (the plain one, the fast one) with the AD type in double, at the
-//    same coordinates. Errors: the value's absolute (of a logarithm), the gradient's relative to
-//    max(1, |g|), the Hessian's to max(1, |H|) in the Frobenius norm. A path may magnify float's
-//    rounding, of its vertices for instance, beyond any tolerance without any mistake in the
-//    derivative. So where the tolerance is exceeded, float minus double is looked at on neighbouring
-//    paths too: rounding changes from one to the next, a mistake doesn't. If the mean of these
-//    differences is within the tolerance and three of its standard errors, it was rounding.
+//    same coordinates. Errors: the value's absolute (of a logarithm), the Hessian's relative to
+//    max(1, |H|) in the Frobenius norm, the gradient's to max(|g|, root of the same). A path may
+//    magnify float's rounding, of its vertices for instance, beyond any tolerance without any mistake
+//    in the derivative. So where the tolerance is exceeded, float minus double is looked at on
+//    neighbouring paths too: rounding changes from one to the next, a mistake doesn't. It was rounding
+//    if the mean of these differences is within the tolerance, three of its standard errors and ten
+//    times the neighbours' relative error of the target itself, as traced in float (what a derivative
+//    has no part in); or if the target lies below 1e-36, at the end of float's range. A form's value
+//    need only agree with either the double's or the traced one.
 #pragma once
 
 #include <array>

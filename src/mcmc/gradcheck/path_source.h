@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "render/path/primary_sample.h"
@@ -21,6 +22,9 @@ struct SampledPath {
   Technique technique;
   PrimarySample sample;
 };
+
+// "bdpt sample 12", "chain 3, state 4" or "given".
+std::string nameOf(const SampledPath& path);
 
 // Up to `count` connections of bidirectional samples, whatever they contribute: as evenly spread over
 // the techniques of 1 .. maxLength edges as these are found. The same paths for the same seed.

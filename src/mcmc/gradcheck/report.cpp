@@ -130,8 +130,7 @@ const Grouping kGroupings[] = {
      [](const PathCheck& p) {
        return std::vector{std::string(p.traits.moving ? "moving" : "still")};
      }},
-    {"sampled by",
-     [](const PathCheck& p) { return std::vector{std::string(nameOf(p.path.origin))}; }},
+    {"sampler", [](const PathCheck& p) { return std::vector{std::string(nameOf(p.path.origin))}; }},
 };
 
 json groupsOf(const GradcheckSettings& settings, const GradcheckResult& result) {
@@ -271,7 +270,7 @@ json pathReport(const Scene& scene, const GradcheckSettings& settings, const Pat
     if ((p.traits.bsdfs >> k) & 1) bsdfs.push_back(bsdfKinds()[k]);
   return {{"replay", pathText(p.path.technique, p.path.sample)},
           {"sampledBy", nameOf(p.path.origin)},
-          {"index", p.path.index},
+          {"name", nameOf(p.path)},
           {"s", p.path.technique.s},
           {"t", p.path.technique.t},
           {"bsdfs", bsdfs},

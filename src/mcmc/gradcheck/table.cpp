@@ -160,8 +160,8 @@ std::string describePath(const Scene& scene, const SampledPath& sampled,
   text += fmt::format("  {:<8} {:>20} {:>20} {:>9} {:>9}{}\n", "entry", "double AD", "differences",
                       "est.error", "rel.error", names);
   const auto floats = [&](const auto& member, std::size_t k) {
-    std::vector<double> values;
-    for (const ad::DerivativeValues& form : forms) values.push_back((form.*member)[k]);
+    std::vector<double> values(forms.size());
+    for (std::size_t f = 0; f < forms.size(); ++f) values[f] = (forms[f].*member)[k];
     return values;
   };
   for (std::size_t i = 0; i < check.gradient.size(); ++i)
