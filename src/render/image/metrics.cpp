@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/image/color_encoding.h"
+#include "render/image/flip.h"
 
 namespace h2mc {
 namespace {
@@ -52,8 +53,9 @@ double relmse(const Image& image, const Image& reference) {
   return meanOver(image, reference, relativeSquare(reference));
 }
 
-double relmseTrimmed(const Image& image, const Image& reference) {
-  const auto error = relativeSquare(reference);
+// Mean over the pixels but the worst, of error(a, r) averaged over channels.
+template <class Error>
+double trimmedMean(const Image& image, const Image& reference, Error error) {
   std::vector<double> perPixel;
   perPixel.reserve(image.pixels.size());
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
@@ -70,6 +72,16 @@ double relmseTrimmed(const Image& image, const Image& reference) {
   for (std::size_t i = 0; i < kept; ++i) sum += perPixel[i];
   return sum / static_cast<double>(kept);
 }
+
+double relmseTrimmed(const Image& image, const Image& reference) {
+  return trimmedMean(image, reference, relativeSquare(reference));
+}
+
+double mseTrimmed(const Image& image, const Image& reference) {
+  return trimmedMean(image, reference, [](double a, double r) { return (a - r) * (a - r); });
+}
+
+double hdrFlip(const Image& image, const Image& reference) { return HdrFlip(reference)(image); }
 
 double mae(const Image& image, const Image& reference) {
   return meanOver(image, reference, [](double a, double r) { return std::abs(a - r); });
@@ -98,10 +110,13 @@ constexpr std::array kMetrics{
     Metric{"relmse", "relative mean square error, mean(e^2 / (r^2 + 0.01 m^2))", false, relmse},
     Metric{"relmse-trimmed", "relmse without the worst 0.1 % of the pixels", false, relmseTrimmed},
     Metric{"mse", "mean square error, mean(e^2)", false, mse},
+    Metric{"mse-trimmed", "mse without the worst 0.1 % of the pixels", false, mseTrimmed},
     Metric{"rmse", "root mean square error, sqrt(mse)", false, rmse},
     Metric{"mae", "mean absolute error, mean(|e|)", false, mae},
     Metric{"mape", "mean absolute relative error, mean(|e| / (|r| + 0.01 m))", false, mape},
     Metric{"smape", "symmetric relative error, mean(2 |e| / (|a| + |r|))", false, smape},
+    Metric{"hdr-flip", "HDR-FLIP, how different they look, 0 to 1 [Andersson et al. 2021]", false,
+           hdrFlip},
     Metric{"psnr", "peak signal to noise ratio in dB, 10 log10(max(r)^2 / mse)", true, psnr},
 };
 
