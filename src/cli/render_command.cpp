@@ -11,11 +11,11 @@
 #include <thread>
 
 #include "cli/commands.h"
-#include "cli/integrator_choice.h"
 #include "cli/progress_display.h"
 #include "cli/statistics_table.h"
 #include "cli/stop_signals.h"
 #include "h2mc_version.h"
+#include "mcmc/integrator_choice.h"
 #include "render/image/atomic_file.h"
 #include "render/image/image_io.h"
 #include "render/scene/scene.h"

@@ -17,7 +17,7 @@ struct IntegratorChoice {
 // `wish` is the command line's "NAME", "NAME:option=value,...", ":option=value,..." or "".
 // Without a name it is the scene's integrator, or h2mc. What the scene says in the words of another
 // integrator holds where the chosen one has an option of that name; the wish goes before it.
-// Throws InputError or OptionError, saying what there is.
+// Throws OptionError, saying what there is.
 IntegratorChoice chooseIntegrator(const std::string& wish, const Scene& scene);
 
 // "a=1,b=2" of the values in force, as chooseIntegrator reads them.

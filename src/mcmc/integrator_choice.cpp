@@ -1,4 +1,4 @@
-#include "cli/integrator_choice.h"
+#include "mcmc/integrator_choice.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "cli/commands.h"
 #include "mcmc/integrators.h"
 #include "render/scene/suggestion.h"
 
@@ -30,7 +29,7 @@ Wish parse(const std::string& text) {
     const std::string option = text.substr(begin, end - begin);
     const std::size_t equals = option.find('=');
     if (equals == 0 || equals == std::string::npos)
-      throw InputError(
+      throw OptionError(
           fmt::format("--integrator {}: expected option=value, got \"{}\"", text, option));
     wish.options.emplace_back(option.substr(0, equals), option.substr(equals + 1));
     begin = end + 1;
@@ -44,7 +43,7 @@ const IntegratorFactory& findFactory(const std::string& name) {
     if (factory.plugin.name == name) return factory;
     names.emplace_back(factory.plugin.name);
   }
-  throw InputError("unknown integrator \"" + name + "\"; " + suggestion(name, names));
+  throw OptionError("unknown integrator \"" + name + "\"; " + suggestion(name, names));
 }
 
 void apply(const Wish& wish, OptionSet& options) {
