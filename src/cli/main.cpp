@@ -10,6 +10,7 @@
 #include <new>
 
 #include "cli/commands.h"
+#include "compare/comparison.h"
 #include "h2mc_version.h"
 #include "mcmc/integrators.h"
 #include "render/image/image_io.h"
@@ -65,8 +66,9 @@ int run(int argc, char** argv) {
   addListCommand(app, command);
   addDiffCommand(app, command);
   addGradcheckCommand(app, command);
+  addCompareCommand(app, command);
 
-  const Names commands{"render", "info", "list", "diff", "gradcheck"};
+  const Names commands{"render", "info", "list", "diff", "gradcheck", "compare"};
   const std::string first = argc > 1 ? argv[1] : "";
   const bool known = std::find(commands.begin(), commands.end(), first) != commands.end();
   if (!first.empty() && first[0] != '-' && !known)
@@ -90,6 +92,8 @@ int run(int argc, char** argv) {
   } catch (const SceneError& e) {
     return report(kBadInput, e.what());
   } catch (const OptionError& e) {
+    return report(kBadInput, e.what());
+  } catch (const ComparisonError& e) {
     return report(kBadInput, e.what());
   } catch (const ImageError& e) {
     return report(kBadInput, e.what());

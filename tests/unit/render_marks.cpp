@@ -121,7 +121,9 @@ TEST_P(Marks, ChangeNothing) {
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_GE(static_cast<double>(seen[i].samples), request.marks[i] * pixels);
     EXPECT_EQ(seen[i].sampleUnit, marked.sampleUnit);
-    if (i > 0) EXPECT_GT(seen[i].wallSeconds, seen[i - 1].wallSeconds);
+    if (i > 0) {
+      EXPECT_GT(seen[i].wallSeconds, seen[i - 1].wallSeconds);
+    }
   }
   EXPECT_LE(seen[2].wallSeconds, marked.wallSeconds);
 }

@@ -1,0 +1,22 @@
+// Putting data into a page that needs no other file.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace h2mc {
+
+// The bits of an IEEE 754 half, rounded to nearest even; too large numbers become the largest finite
+// half, what is not a number stays so.
+std::uint16_t halfBits(float value);
+
+std::string base64(const std::vector<std::uint8_t>& bytes);
+
+// The page with style, script and data in place of its marks /*STYLE*/, /*SCRIPT*/ and /*DATA*/.
+std::string filledPage(std::string_view html, std::string_view style, std::string_view script,
+                       const nlohmann::json& data);
+
+}  // namespace h2mc

@@ -1,0 +1,213 @@
+#!/usr/bin/env python3
+"""The page of h2mc compare in a browser: headless Chromium, driven by Selenium. Skipped without."""
+
+import json
+import os
+import shutil
+import struct
+import sys
+
+import _h2mc
+
+SYSTEM_PYTHON = "/usr/bin/python3"  # where Debian's packages are seen
+try:
+    from selenium import webdriver
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+    DRIVER = shutil.which("chromedriver")
+except ImportError:
+    DRIVER = None
+    if os.path.exists(SYSTEM_PYTHON) and os.path.realpath(sys.executable) != os.path.realpath(SYSTEM_PYTHON):
+        os.execv(SYSTEM_PYTHON, [SYSTEM_PYTHON, *sys.argv])
+
+
+def browser(width=1440, height=900):
+    options = webdriver.ChromeOptions()
+    for flag in ("--headless", "--no-sandbox", "--disable-gpu", "--no-first-run",
+                 "--disable-background-networking", "--disable-component-update", "--disable-sync",
+                 "--disable-dev-shm-usage", f"--window-size={width},{height}"):
+        options.add_argument(flag)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    return webdriver.Chrome(service=webdriver.chrome.service.Service(DRIVER), options=options)
+
+
+class Page(_h2mc.Test):
+    def setUp(self):
+        super().setUp()
+        self.write("box.xml", _h2mc.SCENE)
+        self.write("dim.xml", _h2mc.SCENE.replace('name="radiance" value="4"', 'name="radiance" value="0.01"'))
+        self.succeeds("compare", "box.xml", "dim.xml", "-i", "path,bdpt,path:maxDepth=2", "-m", "2,4,16", "-k", 2,
+                      "-r", "auto", "--reference-time", 0.3, "--width", 48, "-o", "out")
+        self.driver = browser()
+        self.addCleanup(self.driver.quit)
+        self.driver.get("file://" + self.path("out/index.html"))
+
+    def all(self, selector):
+        return self.driver.find_elements(By.CSS_SELECTOR, selector)
+
+    def one(self, selector):
+        return self.driver.find_element(By.CSS_SELECTOR, selector)
+
+    def key(self, key):
+        self.one("body").send_keys(key)
+
+    def caption(self):
+        return self.one(".view figcaption b").text
+
+    def canvas_sum(self):
+        return self.driver.execute_script(
+            "const c = document.querySelector('.view canvas');"
+            "return c.getContext('2d').getImageData(0, 0, c.width, c.height).data.reduce((a, b) => a + b, 0)")
+
+    def pixel_of(self, name, x, y):
+        """From the EXR file itself."""
+        attributes, _ = self.read_exr(name)
+        box = struct.unpack("<4i", attributes["dataWindow"])
+        self.assertEqual((box[2] + 1, box[3] + 1), (48, 32))
+        return read_pixels(self.path(name), 48, 32)[y][x]
+
+    def test_everything(self):
+        self.assertEqual([e.text for e in self.all("#scenes button")], ["box", "dim"])
+        self.assertEqual(len(self.all("#ranking tbody tr")), 3)
+        with open(self.path("out/results.json"), encoding="utf-8") as stream:
+            results = json.load(stream)
+        box = results["scenes"][0]
+        summary = next(s for s in box["summaries"] if s["metric"] == "relmse" and not s["timed"])
+        shown = [float(c.get_attribute("data-value")) for c in self.all("#ranking td[data-value]")]
+        for value, method in zip(shown, summary["methods"]):
+            self.assertAlmostEqual(value, method["error"]["value"], delta=1e-6 * value)
+        self.assertTrue(self.all("#chart-time svg polyline") and self.all("#chart-work svg polygon"))
+        self.assertEqual(len(self.all("#all-scenes svg")), 2)
+        # The path of two edges lacks light, and that is no scatter.
+        self.assertIn("bias shows", self.all("#ranking tbody tr")[2].text)
+
+        # Keys and clicks choose what is seen.
+        self.assertEqual(self.caption(), "path")
+        self.key("2")
+        self.assertEqual(self.caption(), "bdpt")
+        self.key("r")
+        self.assertEqual(self.caption(), "reference")
+        self.key("r")
+        self.assertEqual(self.caption(), "bdpt")
+        self.one("#chips button[data-picture='2']").click()
+        self.assertEqual(self.caption(), "path:maxDepth=2")
+        self.key("9")  # there is none
+        self.assertEqual(self.caption(), "path:maxDepth=2")
+        self.key("1")
+
+        # Values under the cursor are those of the files.
+        canvas = self.one(".view canvas")
+        self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", canvas)
+        for u, v in ((0.3, 0.4), (-0.35, 0.1), (0.05, -0.3)):
+            size = canvas.size
+            ActionChains(self.driver).move_to_element_with_offset(
+                canvas, int(u * size["width"]), int(v * size["height"])).perform()
+            head = self.one("#readout th[data-x]")
+            x, y = int(head.get_attribute("data-x")), int(head.get_attribute("data-y"))
+            self.assertAlmostEqual(x / 48, 0.5 + u, delta=0.03)
+            self.assertAlmostEqual(y / 32, 0.5 + v, delta=0.05)
+            for index, method in enumerate(box["methods"]):
+                image = "out/" + method["repeats"][0]["points"][-1]["image"]
+                cells = self.all(f"#readout tr[data-picture='{index}'] td[data-value]")
+                for cell, expected in zip(cells, self.pixel_of(image, x, y)):
+                    self.assertAlmostEqual(float(cell.get_attribute("data-value")), expected,
+                                           delta=1e-3 * abs(expected) + 1e-6)
+                self.assertEqual(len(cells), 3)
+
+        # Exposure and error maps change the picture; zoom and drag move it.
+        before = self.canvas_sum()
+        self.driver.execute_script(
+            "const e = document.getElementById('exposure'); e.value = Number(e.value) + 2;"
+            "e.dispatchEvent(new Event('input'))")
+        brighter = self.canvas_sum()
+        self.assertGreater(brighter, before)
+        self.key("e")
+        self.assertNotEqual(self.canvas_sum(), brighter)
+        self.one("#show button[data-show='color']").click()
+        self.assertEqual(self.canvas_sum(), brighter)
+        self.one("#zoom-in").click()
+        self.assertIn("zoomed", canvas.get_attribute("class"))
+        zoomed = self.canvas_sum()
+        ActionChains(self.driver).move_to_element(canvas).click_and_hold().move_by_offset(60, 40).release().perform()
+        self.assertNotEqual(self.canvas_sum(), zoomed)
+        self.key("0")
+        self.assertNotIn("zoomed", canvas.get_attribute("class"))
+
+        # Side by side, slider, insets.
+        self.one("#mode button[data-mode='side']").click()
+        self.assertEqual([e.text for e in self.all(".view figcaption b")],
+                         ["path", "bdpt", "path:maxDepth=2", "reference"])
+        self.one("#mode button[data-mode='slider']").click()
+        self.assertEqual(self.caption(), "path | reference")
+        split = self.canvas_sum()
+        canvas = self.one(".view canvas")
+        ActionChains(self.driver).move_to_element(canvas).click_and_hold().move_by_offset(150, 0).release().perform()
+        self.assertNotEqual(self.canvas_sum(), split)
+        rows = len(self.all(".inset"))
+        self.assertGreaterEqual(rows, 1)
+        self.key("i")
+        ActionChains(self.driver).move_to_element_with_offset(canvas, -200, -100).click_and_hold() \
+            .move_by_offset(150, 90).release().perform()
+        self.assertEqual(len(self.all(".inset")), rows + 1)
+        self.all(".inset .remove")[0].click()
+        self.assertEqual(len(self.all(".inset")), rows)
+
+        # The other scene, another metric, the other axis.
+        self.key(Keys.ARROW_RIGHT)
+        self.assertEqual(self.all("#scenes button")[1].get_attribute("aria-selected"), "true")
+        ranking = self.one("#ranking").text
+        self.one("#metric option:nth-child(7)").click()
+        self.assertIn("hdr-flip", self.one("#ranking").text)
+        self.assertNotEqual(self.one("#ranking").text, ranking)
+        self.one("#axis option[value='time']").click()
+        self.assertIn(" s", self.one("#ranking th:nth-child(3)").text)
+        self.key(Keys.ARROW_RIGHT)
+        self.assertEqual(self.all("#scenes button")[0].get_attribute("aria-selected"), "true")
+        self.assertEqual([entry["message"] for entry in self.driver.get_log("browser")], [])
+
+        # On a phone nothing sticks out.
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                    {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
+        self.driver.refresh()
+        self.assertLessEqual(self.driver.execute_script("return document.documentElement.scrollWidth"), 390)
+
+
+def read_pixels(path, width, height):
+    """Rows of (r, g, b) of an EXR as h2mc writes them: floats in zip-compressed blocks of 16 rows."""
+    import zlib
+    with open(path, "rb") as stream:
+        data = stream.read()
+    position = 8
+    while data[position] != 0:  # skip the header
+        position = data.index(b"\0", data.index(b"\0", position) + 1) + 1
+        position += 4 + struct.unpack_from("<i", data, position)[0]
+    blocks = (height + 15) // 16
+    rows = [None] * height
+    for offset in struct.unpack_from(f"<{blocks}Q", data, position + 1):
+        top, size = struct.unpack_from("<2i", data, offset)
+        packed = data[offset + 8:offset + 8 + size]
+        count = min(16, height - top)
+        if size == count * width * 12:
+            raw = packed
+        else:
+            raw = bytearray(zlib.decompress(packed))
+            for i in range(1, len(raw)):
+                raw[i] = (raw[i - 1] + raw[i] - 128) & 255
+            half = (len(raw) + 1) // 2
+            joined = bytearray(len(raw))
+            joined[0::2], joined[1::2] = raw[:half], raw[half:]
+            raw = bytes(joined)
+        for row in range(count):
+            line = struct.unpack_from(f"<{3 * width}f", raw, row * width * 12)
+            # Channels lie one after the other in the order of their names: B, G, R.
+            rows[top + row] = list(zip(line[2 * width:], line[width:2 * width], line[:width]))
+    return rows
+
+
+if __name__ == "__main__":
+    if not DRIVER:
+        print("SKIPPED: the page of h2mc compare was not tried in a browser: this needs the Debian "
+              "packages chromium, chromium-driver and python3-selenium", file=sys.stderr)
+        sys.exit(77)
+    _h2mc.main()
