@@ -38,6 +38,7 @@ void addListCommand(CLI::App& app, Run& run);
 void addDiffCommand(CLI::App& app, Run& run);
 void addGradcheckCommand(CLI::App& app, Run& run);
 void addCompareCommand(CLI::App& app, Run& run);
+void addDemoCommand(CLI::App& app, Run& run);
 
 // The tables of all integrators, for the scene reader.
 std::vector<IntegratorPlugin> integratorPlugins();

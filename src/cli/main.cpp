@@ -67,8 +67,9 @@ int run(int argc, char** argv) {
   addDiffCommand(app, command);
   addGradcheckCommand(app, command);
   addCompareCommand(app, command);
+  addDemoCommand(app, command);
 
-  const Names commands{"render", "info", "list", "diff", "gradcheck", "compare"};
+  const Names commands{"render", "info", "list", "diff", "gradcheck", "compare", "demo"};
   const std::string first = argc > 1 ? argv[1] : "";
   const bool known = std::find(commands.begin(), commands.end(), first) != commands.end();
   if (!first.empty() && first[0] != '-' && !known)
