@@ -84,6 +84,7 @@ struct ReferenceFacts {
   std::string file;        // the image
   std::string origin;      // in words
   double error = 0;        // its own, relmse; 0: not known
+  double brightness = 0;   // standard error of its mean luminance, relative; 0: not known
   double seconds = 0;      // rendered for; 0: given
   bool goodEnough = true;  // automatic ones: an order of magnitude below what is compared
 };

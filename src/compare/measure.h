@@ -20,10 +20,14 @@ struct BiasCheck {
   double meanImageError = 0;  // relmse of the mean image of all repeats
   double varianceAlone = 0;   // what their scatter and the reference's own error would leave of it
   // The difference estimated from pairs of repeats, in which scatter cancels: may be below zero.
-  double squaredBias = 0, standardError = 0;  // relmse; 0 and 0 with less than two repeats
-  bool shows = false;                         // squaredBias lies three standard errors above zero
+  // Its standard error is by blocks of pixels. relmse; 0 and 0 with less than two repeats.
+  double squaredBias = 0, standardError = 0;
+  // The same from images that were scaled to the reference's brightness, whose scatter is common to
+  // all blocks, lies three standard errors above zero: the picture is another one.
+  bool shows = false;
+  // meanRatio's interval, widened by three standard errors of the reference's, leaves 1 out.
+  bool brightnessOff = false;
 };
-// referenceError: the reference's own relmse, 0 where it is not known.
-BiasCheck checkBias(const MethodRuns& method, const Image& reference, double referenceError);
+BiasCheck checkBias(const MethodRuns& method, const Image& reference, const ReferenceFacts& facts);
 
 }  // namespace h2mc

@@ -92,6 +92,11 @@ class Halves {
 
  public:
   // E |(A - B) / 2|^2 = E |(A + B) / 2 - truth|^2 for independent A and B of the same error.
+  // Of the halves' mean, from one difference: a rough guess.
+  double brightnessError() const {
+    const double a = meanLuminance(images_[0]), b = meanLuminance(images_[1]);
+    return a + b > 0 ? std::abs(a - b) / (a + b) : 0;
+  }
   double ownError() const { return relmse(images_[0], image()); }
 };
 
@@ -238,6 +243,7 @@ bool renderReference(const ComparisonPlan& plan, const ComparisonSetup::OneScene
   reference.facts.origin = fmt::format("{}, {:.0f} s in two independent halves of {} parts", wish,
                                        halves.seconds(), halves.parts());
   reference.facts.error = own;
+  reference.facts.brightness = halves.brightnessError();
   reference.facts.seconds = halves.seconds();
   reference.facts.goodEnough = own <= wanted;
   writeImage(reference.facts.file, reference.image,

@@ -52,7 +52,8 @@ json summaryJson(const Summary& summary) {
 json biasJson(const BiasCheck& b) {
   return {{"meanRatio", estimateJson(b.meanRatio)},   {"meanImageError", number(b.meanImageError)},
           {"varianceAlone", number(b.varianceAlone)}, {"squaredBias", number(b.squaredBias)},
-          {"standardError", number(b.standardError)}, {"shows", b.shows}};
+          {"standardError", number(b.standardError)}, {"shows", b.shows},
+          {"brightnessOff", b.brightnessOff}};
 }
 
 // The method's images of the same number in each repeat, as one point with an interval.
@@ -139,6 +140,11 @@ std::string position(const Summary& summary) {
                        : fmt::format("{:g} mutations or samples a pixel", summary.position);
 }
 
+std::string biasText(const BiasCheck& bias) {
+  return std::string(bias.brightnessOff ? "; BRIGHTNESS OFF" : "") +
+         (bias.shows ? "; BIAS SHOWS" : "");
+}
+
 std::string latexText(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -170,7 +176,7 @@ std::string latexEstimate(const Estimate& e) {
 SceneResults resultsOf(SceneRuns runs, const ComparisonPlan& plan, const Image& reference) {
   SceneResults results;
   for (const MethodRuns& method : runs.methods)
-    results.bias.push_back(checkBias(method, reference, runs.reference.error));
+    results.bias.push_back(checkBias(method, reference, runs.reference));
   for (const std::string& metric : comparedMetrics()) {
     results.byTime.push_back(summarise(runs, plan, metric, true));
     results.byMutation.push_back(summarise(runs, plan, metric, false));
@@ -289,8 +295,7 @@ std::string textTable(const std::vector<SceneResults>& results, const Comparison
       out += fmt::format("  {:<{}}  {:>9}  {:>20}  {:>6}  {:>9}  {:>16}  {:>7}  {}{}\n", m.name,
                          width, text(m.error.value), interval(m.error), text(m.p.value),
                          text(m.timeRatio.value), interval(m.timeRatio),
-                         fmt::format("{:.4f}", bias.meanRatio.value), m.verdict,
-                         bias.shows ? "; BIAS SHOWS" : "");
+                         fmt::format("{:.4f}", bias.meanRatio.value), m.verdict, biasText(bias));
     }
   }
   return out;

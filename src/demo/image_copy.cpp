@@ -47,7 +47,7 @@ std::vector<CopyKernel> kernelsOf(const ImageCopySettings& s) {
        0, s.sigma, false},
       {"large",
        "Every proposal is a uniform point. Nothing is remembered, and in a picture with "
-       "bright spots most proposals are rejected.",
+       "bright spots many proposals are rejected.",
        1, s.sigma, false},
       {"mixed", "Small mutations, and now and then a large one that takes the chain elsewhere.",
        s.largeShare, s.sigma, false},

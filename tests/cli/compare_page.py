@@ -80,7 +80,7 @@ class Page(_h2mc.Test):
         self.assertTrue(self.all("#chart-time svg polyline") and self.all("#chart-work svg polygon"))
         self.assertEqual(len(self.all("#all-scenes svg")), 2)
         # The path of two edges lacks light, and that is no scatter.
-        self.assertIn("bias shows", self.all("#ranking tbody tr")[2].text)
+        self.assertIn("brightness off", self.all("#ranking tbody tr")[2].text)
 
         # Keys and clicks choose what is seen.
         self.assertEqual(self.caption(), "path")

@@ -4,11 +4,12 @@
 #include <bit>
 #include <cmath>
 
+#include "compare/embed.h"
 #include "compare/external.h"
 #include "compare/measure.h"
-#include "compare/embed.h"
 #include "render/core/random.h"
 #include "render/image/image_io.h"
+#include "render/image/metrics.h"
 #include "scene_files.h"
 
 namespace h2mc {
@@ -72,28 +73,35 @@ TEST(ExternalImages, RepeatsAndMistakes) {
   EXPECT_THROW(readExternal(method, scene, false), ComparisonError);  // another size
 }
 
-// A method that is brighter by 5 % shows, one that only scatters does not.
+// Too bright by 5 %, 5 % too bright here and too dark there, and only noisy.
 TEST(Bias, ShowsBehindTheScatter) {
   const test::SceneFolder folder;
   Image reference(32, 32);
   for (Rgbf& p : reference.pixels) p = Rgbf(1);
-  for (const double bias : {0.0, 0.05}) {
+  for (const auto& [upper, lower] : {std::pair{0.0, 0.0}, {0.05, 0.05}, {0.05, -0.05}}) {
     MethodRuns method;
     for (int k = 0; k < 4; ++k) {
-      Random random(11, static_cast<std::uint64_t>(k), bias > 0);
+      Random random(11, static_cast<std::uint64_t>(k), upper > 0);
       Image image = reference;
-      for (Rgbf& p : image.pixels)
-        p = Rgbf(static_cast<float>(1 + bias + 0.3 * (random.uniform() - 0.5)));
+      for (int i = 0; i < 32 * 32; ++i)
+        image.pixels[i] = Rgbf(
+            static_cast<float>(1 + (i < 512 ? upper : lower) + 0.3 * (random.uniform() - 0.5)));
       Point point;
       point.image = folder.path() + "image" + std::to_string(k) + ".exr";
+      point.meanRatio = meanLuminance(image);
       writeImage(point.image.string(), image);
       method.repeats.push_back({static_cast<std::uint64_t>(k), {point}});
     }
-    const BiasCheck check = checkBias(method, reference, 0);
-    EXPECT_EQ(check.shows, bias > 0);
-    EXPECT_NEAR(check.squaredBias, bias * bias / 1.01, 6e-4);
+    const BiasCheck check = checkBias(method, reference, {});
+    EXPECT_EQ(check.shows, upper != lower);
+    EXPECT_EQ(check.brightnessOff, upper + lower != 0);
+    const double squared = (upper * upper + lower * lower) / 2;
+    EXPECT_NEAR(check.squaredBias, squared / 1.01, 6e-4);
     EXPECT_NEAR(check.varianceAlone, 0.09 / 12 / 4 / 1.01, 2e-4);
-    EXPECT_NEAR(check.meanImageError, check.varianceAlone + bias * bias / 1.01, 6e-4);
+    EXPECT_NEAR(check.meanImageError, check.varianceAlone + squared / 1.01, 6e-4);
+    ReferenceFacts doubtful;
+    doubtful.brightness = 0.04;
+    EXPECT_FALSE(checkBias(method, reference, doubtful).brightnessOff);
   }
 }
 

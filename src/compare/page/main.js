@@ -43,13 +43,14 @@ function canvasOf(index) {
   if (!v) return null;
   const point = index === REFERENCE ? null : pointOf(index);
   const key = `${index}/${point ? point.mark : ""}`;
-  const wanted = `${state.scene} ${state.show} ${state.exposure} ${state.gamma}`;
+  const show = index === REFERENCE ? "color" : state.show;
+  const wanted = `${state.scene} ${show} ${state.exposure} ${state.gamma}`;
   let entry = developed.get(key);
   if (!entry) developed.set(key, (entry = { canvas: element("canvas"), made: "" }));
   if (entry.made !== wanted) {
     entry.canvas.width = scene().width;
     entry.canvas.height = scene().height;
-    develop(entry.canvas, v, values(REFERENCE), state.show, state.exposure, state.gamma);
+    develop(entry.canvas, v, values(REFERENCE), show, state.exposure, state.gamma);
     entry.made = wanted;
   }
   return entry.canvas;
@@ -291,7 +292,7 @@ function start() {
   byId("pick").addEventListener("click", () => setPicking(!viewer.picking));
   document.addEventListener("keydown", onKey);
   const all = data.scenes.some((s) => s.methods.some((m) => embedded(m).length > 1));
-  byId("embedded-text").textContent = `The pictures are the first repeat's, ${all ? "at every mark" : "at the last mark"}, as half floats (three digits).`;
+  byId("embedded-text").textContent = `Errors are of luminance, relative to the reference (plus 1 % of its mean): from 0.001, dark, to 1, pale; signed: red where brighter, blue where darker. The pictures are the first repeat's, ${all ? "at every mark" : "at the last mark"}, as half floats (three digits).`;
   prepareScene();
   update();
   let wide = innerWidth;

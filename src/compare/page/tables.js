@@ -27,6 +27,7 @@ function drawRanking(table, data, scene, metric, timed) {
     const verdict = element("td", { class: "text" });
     verdict.append(element("span", { class: m.verdict === "best" ? "best-word" : "" }, m.verdict));
     if (!Number.isNaN(number(m.pValue))) verdict.append(element("small", {}, `p = ${short(m.pValue, 2)}`));
+    if (bias.brightnessOff) verdict.append(" ", element("span", { class: "bad-word" }, "brightness off"));
     if (bias.shows) verdict.append(" ", element("span", { class: "bad-word" }, "bias shows"));
     return element("tr", { class: i === summary.best ? "best" : "", "data-method": String(i) },
       name, element("td", {}, m.rank ? String(m.rank) : "–"), error, withInterval(m.p), withInterval(m.errorRatio),

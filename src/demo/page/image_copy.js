@@ -72,7 +72,7 @@ function drawSweep(figure, title, key, logarithmic) {
       dot.append(svg("title", {}, `${name}, sigma ${short(p.sigma)}: ${short(p[key])}`));
       drawing.append(dot);
     }
-    const y = top + 18 + 17 * i;
+    const y = H - bottom - 26 + 17 * i;
     drawing.append(svg("rect", { x: left + 10, y: y - 8, width: 12, height: 4, rx: 2, style: `fill:${color(index)}` }));
     drawing.append(svg("text", { x: left + 28, y: y - 2, style: "fill:var(--text)" }, name));
   });
@@ -97,4 +97,4 @@ byId("methods").replaceChildren(...data.methods.map((m) => {
 }));
 drawSweep(byId("acceptance"), "Acceptance of small mutations", "acceptance", false);
 drawSweep(byId("error"), `Error (relmse) at ${data.sweepPerPixel} mutations a pixel`, "relmse", true);
-byId("sweep-text").textContent = `Each with ${percent(data.largeShare)} large mutations. Tiny steps are nearly always accepted and go nowhere; huge ones are nearly always rejected. For Hessian-Hamiltonian proposals sigma is only the prior's: where the luminance is curved they are narrower of their own accord, so that acceptance stays high while the prior grows.`;
+byId("sweep-text").textContent = `Each with ${percent(data.largeShare)} large mutations. Tiny steps are nearly always accepted and go nowhere; huge ones are nearly always rejected. For Hessian-Hamiltonian proposals sigma is only the prior's: where the luminance is curved they are narrower of their own accord, across edges more than along them. How much that gains depends on the picture: most where what is bright is long and narrow.`;
