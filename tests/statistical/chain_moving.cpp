@@ -161,7 +161,7 @@ TEST_P(ChainOnHalfMoving, KeepsTheDistribution) {
   constexpr int kChains = 60000, kSteps = 16;
   static const Histogram expected = expectedShares();
   Histogram seen;
-  Film film(FilmSettings{4, 4, {}});
+  ChainFilms films(FilmSettings{4, 4, {}});
   ChainStatistics statistics(kernels.kinds(), 2);
   MutationContext context;
   Random random(17, 0, 0);
@@ -178,7 +178,7 @@ TEST_P(ChainOnHalfMoving, KeepsTheDistribution) {
     Chain chain(target, start, Random(19, static_cast<std::uint64_t>(c), 0));
     for (int i = 0; i < kSteps; ++i) {
       const bool before = chain.path().moving;
-      chain.step(kernels, film, statistics, context);
+      chain.step(kernels, films, statistics, context);
       crossings += before != chain.path().moving;
     }
     const Path& path = chain.path();
