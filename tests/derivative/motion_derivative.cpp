@@ -242,8 +242,10 @@ TEST_P(MovingPaths, SlowAgreeWithFiniteDifferences) {
           wrong += !(std::abs(d.gradient[a] - g.value) <= 1e-2 * gradientScale + 10 * g.error);
         }
         for (int b = 0; b <= a; ++b, ++k) {
-          const auto& h = fd.hessian[static_cast<std::size_t>(a * n + b)];
-          const auto& h2 = wide.hessian[static_cast<std::size_t>(a * n + b)];
+          const auto entry = static_cast<std::size_t>(a) * static_cast<std::size_t>(n) +
+                             static_cast<std::size_t>(b);
+          const auto& h = fd.hessian[entry];
+          const auto& h2 = wide.hessian[entry];
           if (std::max(h.error, std::abs(h.value - h2.value)) <= 1e-2 * hessianScale) {
             ++judged;
             wrong += !(std::abs(d.hessian[k] - h.value) <= 2e-2 * hessianScale + 10 * h.error);

@@ -131,7 +131,8 @@ TEST(MovingShapes, NearTheKeyframes) {
   ASSERT_EQ(mesh.vertices(), 24u);
   for (int i = 0; i <= 100; ++i) {
     const std::string at = std::to_string(i / 100.0);
-    const Scene still = folder.read(scene(shape("cube", kTurn), at + " " + at));
+    const Scene still =
+        folder.read(scene(shape("cube", kTurn), std::string(at).append(" ").append(at)));
     EXPECT_FALSE(still.moving);
     const auto& exact = std::get<TriangleMesh>(still.shapes[0].geometry);
     const detail::MeshAtMoment<float> view(mesh, static_cast<float>(i) / 100);
