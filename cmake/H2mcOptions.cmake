@@ -7,7 +7,7 @@ option(H2MC_WERROR "Treat warnings as errors" OFF)
 set(H2MC_DERIVATIVE_EDGES 8 CACHE STRING "Longest paths whose derivatives are compiled in, 1 to 8 edges")
 set(H2MC_SANITIZE "" CACHE STRING "Sanitizers to build with, such as address,undefined")
 option(H2MC_BUILD_TESTS "Build the tests, where GoogleTest is found" ON)
-set(H2MC_TEST_FOLDERS "unit;derivative;statistical;stress;image" CACHE STRING "Which folders of tests to build")
+set(H2MC_TEST_FOLDERS "ad;unit;derivative;statistical;stress;image" CACHE STRING "Which folders of tests to build")
 option(H2MC_BUILD_BENCHMARKS "Build the benchmarks, where Google Benchmark is found" ON)
 set(H2MC_DATA_DIR "${CMAKE_SOURCE_DIR}/../shared/data" CACHE PATH "Published scenes and reference images, for the tests")
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # scripts/test.sh [--quick] [CTEST ARGS...]: installs what is missing, builds with warnings as errors, runs every test.
-# Then, unless --quick: the quick tests under AddressSanitizer and UndefinedBehaviorSanitizer, the derivative tests as
+# Then, unless --quick: the quick tests under AddressSanitizer and UndefinedBehaviorSanitizer, the tests of derivatives as
 # compiled by clang, formatting, clang-tidy. The arguments go to the release run of ctest, as in
 # scripts/test.sh --quick -R Wavelet. Each step runs whatever became of those before it; the exit code is 0 if all passed.
 set -uo pipefail
@@ -37,7 +37,7 @@ asan_tests() {
     ctest --test-dir "$root/build/asan" -j2 --output-on-failure -L '^(unit|derivative|cli)$' -E '[Ss]low|cli_render|cli_compare|cli_inspect|browser'
 }
 
-clang_tests() { ctest --test-dir "$root/build/clang" -j2 --output-on-failure -L '^derivative$'; }
+clang_tests() { ctest --test-dir "$root/build/clang" -j2 --output-on-failure -L '^(ad|derivative)$'; }
 
 formatting() {
   local files
@@ -81,10 +81,10 @@ if [[ $quick == no ]]; then
   fi
   if command -v clang++ >/dev/null; then
     if step "build: clang, warnings are errors" \
-      build clang all "${build_options[@]}" -DH2MC_TEST_FOLDERS=derivative -DH2MC_BUILD_BENCHMARKS=OFF -DH2MC_DERIVATIVE_EDGES=5; then
-      step "tests: derivative, compiled by clang" clang_tests
+      build clang all "${build_options[@]}" "-DH2MC_TEST_FOLDERS=ad;derivative" -DH2MC_BUILD_BENCHMARKS=OFF -DH2MC_DERIVATIVE_EDGES=5; then
+      step "tests: ad and derivative, compiled by clang" clang_tests
     else
-      skip "tests: derivative, compiled by clang" "not built"
+      skip "tests: ad and derivative, compiled by clang" "not built"
     fi
   else
     skip "build: clang" "no clang++"

@@ -13,8 +13,8 @@
 namespace h2mc {
 namespace {
 
-// Mutations of a chain in one round: a round of all chains takes a fraction of a second.
-constexpr long long kRound = 256;
+// Mutations of a chain in one round: a round of all chains takes some hundredths of a second.
+constexpr long long kRound = 32;
 
 class MetropolisIntegrator final : public Integrator {
  public:
