@@ -46,7 +46,7 @@ std::string comparisonPage(const std::vector<SceneResults>& results, const Compa
       for (json& repeat : repeats)
         for (json& point : repeat["points"]) point.erase("statistics");
       if (images == EmbeddedImages::kNone || method.repeats.empty()) continue;
-      const Point* last = shownPoint(method, results[s].byTime.front().position, true);
+      const Point* last = shownPoint(method, plan.marks.back(), plan.timed);
       for (std::size_t k = 0; k < method.repeats.front().points.size(); ++k) {
         const Point& point = method.repeats.front().points[k];
         if (images == EmbeddedImages::kLast && &point != last) continue;

@@ -116,14 +116,12 @@ function choosePicture(index) {
 
 // --- Values under the cursor ---------------------------------------------------------------------
 
+// Those of the last pixel pointed at stay, so that nothing below moves; at first the middle's.
 let cursor = null;
 function showValues(at) {
-  cursor = at;
   const table = byId("readout");
-  if (!at) {
-    table.replaceChildren(element("tbody", {}, element("tr", {}, element("td", { class: "text hint" }, "Point at a picture for its values."))));
-    return;
-  }
+  if (!values(REFERENCE)) return;
+  cursor = at = at || cursor || { x: scene().width >> 1, y: scene().height >> 1 };
   const k = 3 * (at.y * scene().width + at.x);
   const reference = values(REFERENCE);
   const offset = 0.01 * brightness.get(state.scene);
@@ -207,6 +205,7 @@ function drawCurves() {
 function chooseScene(index) {
   state.scene = (index + data.scenes.length) % data.scenes.length;
   developed.clear();
+  cursor = null;
   viewer.reset();
   prepareScene();
   update();
