@@ -48,7 +48,7 @@ TEST(ExternalImages, TimeInTheName) {
 }
 
 TEST(ExternalImages, RepeatsAndMistakes) {
-  const test::SceneFolder folder;
+  const h2mc::testing::SceneFolder folder;
   SceneRuns scene;
   scene.scene = {"ring.xml", "ring"};
   scene.width = 4;
@@ -75,7 +75,7 @@ TEST(ExternalImages, RepeatsAndMistakes) {
 
 // Too bright by 5 %, 5 % too bright here and too dark there, and only noisy.
 TEST(Bias, ShowsBehindTheScatter) {
-  const test::SceneFolder folder;
+  const h2mc::testing::SceneFolder folder;
   Image reference(32, 32);
   for (Rgbf& p : reference.pixels) p = Rgbf(1);
   for (const auto& [upper, lower] : {std::pair{0.0, 0.0}, {0.05, 0.05}, {0.05, -0.05}}) {
