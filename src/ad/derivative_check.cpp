@@ -115,11 +115,14 @@ class Check {
       entry.verdict = Verdict::kNoise;  // f itself is no better
       return;
     }
-    bool stable = true;
+    bool stable = true, confirmed = false;
     for (std::size_t k = 1; k <= kSweeps; ++k) {
       const Difference& d = entryOf(sweep(k), i, j);
       if (!std::isfinite(d.value) || 2 * d.noise > apart) break;
+      confirmed = true;
       stable = stable && std::abs(d.value - first) <= allowed + kTrust * (d.error + entry.error);
+      // Quotients that stop converging where rounding would not keep them from it.
+      if (d.error > 0.2 * apart && d.error > kTrust * d.noise) stable = false;
       if (std::abs(exact - d.value) > allowed + kTrust * d.error) continue;
       if (std::abs(first - d.value) <= allowed + kTrust * d.error) {
         // It contradicts neither; but it may know better than the first.
@@ -132,7 +135,10 @@ class Check {
       entry.verdict = unresolved(exact, allowed, d);
       return;
     }
-    entry.verdict = stable && !kinked(apart, i, j) ? Verdict::kWrong : Verdict::kKink;
+    if (!confirmed)
+      entry.verdict = Verdict::kNoise;  // or a kink so near that it looks like noise
+    else
+      entry.verdict = stable && !kinked(apart, i, j) ? Verdict::kWrong : Verdict::kKink;
   }
 
   // The verdict on a difference that does not contradict.

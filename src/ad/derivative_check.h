@@ -15,7 +15,8 @@
 // A disagreement beyond the tolerance and ten times the estimated error is looked into by sweeps that
 // begin at ever smaller steps, down to where noise would hide it. One that agrees with the exact value
 // decides: larger steps had reached beyond what the derivative is about. Otherwise it is kWrong if
-// these sweeps agree with one another and one-sided differences do (or else kKink).
+// these sweeps agree with one another and converge, and one-sided differences agree (or else kKink);
+// where noise leaves no smaller steps to look with, it is kNoise.
 #pragma once
 
 #include <cstdint>
