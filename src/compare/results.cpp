@@ -116,7 +116,7 @@ std::string quoted(const std::string& text) {
 std::string optionsOf(const MethodRuns& method) {
   std::string text;
   for (const auto& [name, value] : method.options)
-    text += (text.empty() ? "" : ",") + name + "=" + value;
+    text += fmt::format("{}{}={}", text.empty() ? "" : ",", name, value);
   return text;
 }
 
@@ -165,7 +165,7 @@ std::string latexNumber(double value) {
 }
 
 std::string latexEstimate(const Estimate& e) {
-  const std::string value = latexNumber(e.value);
+  std::string value = latexNumber(e.value);
   if (std::isnan(e.low)) return value;
   return fmt::format("{} {{\\scriptsize [{}, {}]}}", value, latexNumber(e.low),
                      latexNumber(e.high));

@@ -75,9 +75,9 @@ CopyChain::CopyChain(const PictureTarget& target, const CopyKernel& kernel, std:
     if (u < 0) break;
   }
   const std::size_t width = static_cast<std::size_t>(target.width());
-  current_.x = (static_cast<float>(i % width) + random_.uniform()) / static_cast<float>(width);
-  current_.y =
-      (static_cast<float>(i / width) + random_.uniform()) / static_cast<float>(target.height());
+  const std::size_t column = i % width, row = i / width;
+  current_.x = (static_cast<float>(column) + random_.uniform()) / static_cast<float>(width);
+  current_.y = (static_cast<float>(row) + random_.uniform()) / static_cast<float>(target.height());
   evaluate(current_);
 }
 

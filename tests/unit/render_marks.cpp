@@ -72,10 +72,13 @@ TEST(Rounds, NoMarksAfterAnInterruption) {
 class Marks : public ::testing::TestWithParam<const char*> {
  protected:
   static Scene ring() {
+    std::vector<IntegratorPlugin> plugins;
+    for (const IntegratorFactory& factory : allIntegrators()) plugins.push_back(factory.plugin);
     ReadOptions options;
+    options.integrators = plugins;
     options.width = 24;
     options.height = 18;
-    return readScene(std::string(H2MC_SOURCE_DIR) + "/scenes/ring/ring.xml", options);
+    return readScene(H2MC_SOURCE_DIR "/scenes/ring/ring.xml", options);
   }
 
   static RenderResult render(const Scene& scene, const RenderRequest& request, int direct) {
@@ -125,7 +128,7 @@ TEST_P(Marks, ChangeNothing) {
       EXPECT_GT(seen[i].wallSeconds, seen[i - 1].wallSeconds);
     }
   }
-  EXPECT_LE(seen[2].wallSeconds, marked.wallSeconds);
+  EXPECT_LE(seen[2].wallSeconds, marked.wallSeconds + 1e-3);  // made at the same moment
 }
 
 // Direct lighting that is split off grows with the marks, and is the same for any number of threads.
