@@ -33,13 +33,13 @@ class LensStep final : public Mutation {
   std::string_view name() const override { return "lens"; }
   bool propose(ChainState& current, ChainState& proposed, MutationContext& context,
                double& logRatio) override;
+  // The first camera vertex whose scattering can be replaced by a reconnection to the next vertex;
+  // t - 1 if there is none: then the whole subpath is traced again.
+  int reconnectionVertex(const Path& path) const;
 
  private:
   // The Gaussian at a state: over film positions, of what its derivatives are there.
   void prepare(ChainState& state, int reconnection, MutationContext& context) const;
-  // The first camera vertex whose scattering can be replaced by a reconnection to the next vertex;
-  // t - 1 if there is none: then the whole subpath is traced again.
-  int reconnectionVertex(const Path& path) const;
   bool canReconnect(const TracedVertex& vertex) const;
   // Sets the coordinates of camera vertex i so that it scatters along `direction`.
   bool aim(Path& path, int i, const Vec3f& direction, Random& random) const;
