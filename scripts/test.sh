@@ -34,7 +34,7 @@ release_tests() {
 # The programs that read what users write, and not those that render a lot.
 asan_tests() {
   ASAN_OPTIONS=detect_leaks=0:strict_string_checks=1:detect_stack_use_after_return=1 UBSAN_OPTIONS=print_stacktrace=1 \
-    ctest --test-dir "$root/build/asan" -j2 --output-on-failure -L '^(unit|derivative|cli)$' -E '[Ss]low|cli_render|cli_compare|cli_inspect|browser'
+    ctest --test-dir "$root/build/asan" -j2 --output-on-failure -L '^(unit|derivative|cli)$' -E '[Ss]low|cli_(render|compare|demo|gradcheck|motion)'
 }
 
 clang_tests() { ctest --test-dir "$root/build/clang" -j2 --output-on-failure -L '^(ad|derivative)$'; }

@@ -69,14 +69,14 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
     result.cpuSeconds = clock.cpuSeconds();
     return result;
   };
-  const auto callMark = [&](std::size_t mark, const RenderResult& result) {
-    clock.exclude([&] { request.atMark(mark, finished(result)); });
+  const auto callMark = [&](std::size_t mark, const std::function<RenderResult()>& result) {
+    clock.exclude([&] { request.atMark(mark, finished(result())); });
     extendDirect(mark + 1);
   };
   // Where there is nothing for the chains to do.
   const auto directAlone = [&] {
     for (std::size_t mark = 0; mark < request.marks.size() && !direct.interrupted(); ++mark)
-      callMark(mark, {});
+      callMark(mark, [] { return RenderResult(); });
     return finished({});
   };
 
@@ -108,7 +108,9 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
       plan.marks.push_back(mark * pixels / chains.chains() / kRound);
   }
   RenderRequest chainRequest = request;
-  plan.atMark = [&](std::size_t mark, const RoundsResult&) { callMark(mark, chains.result()); };
+  plan.atMark = [&](std::size_t mark, const RoundsResult&) {
+    callMark(mark, [&] { return chains.result(); });
+  };
   plan.betweenRounds = [&] {
     if (chains.epochIsOver()) chains.nextEpoch(split ? &direct.image() : nullptr);
   };

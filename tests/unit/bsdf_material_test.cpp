@@ -167,8 +167,6 @@ TEST(BsdfPlugins, ReadTheirParameters) {
 }
 
 TEST(BsdfPlugins, RefuseWhatTheyCannotDo) {
-  EXPECT_THROW(make("roughconductor", {{"distribution", "phong"}}), SceneError);
-  EXPECT_THROW(make("roughdielectric", {{"distribution", "as"}}), SceneError);
   EXPECT_THROW(make("roughconductor", {{"alphaU", 0.1f}, {"alphaV", 0.2f}}), SceneError);
   EXPECT_THROW(make("roughconductor", {{"alpha", 0.1f}, {"alphaV", 0.1f}}), SceneError);
   EXPECT_THROW(make("roughconductor", {{"alpha", -0.1f}}), SceneError);

@@ -42,15 +42,18 @@ void parallelFor(int threads, int count, const std::function<void(int)>& work) {
 
 RenderClock::RenderClock() : wall_(wallClock()), cpu_(cpuClock()) {}
 
-double RenderClock::wallSeconds() const { return wallClock() - wall_; }
+double RenderClock::wallSeconds() const { return stands_ ? standsWall_ : wallClock() - wall_; }
 
-double RenderClock::cpuSeconds() const { return cpuClock() - cpu_; }
+double RenderClock::cpuSeconds() const { return stands_ ? standsCpu_ : cpuClock() - cpu_; }
 
 void RenderClock::exclude(const std::function<void()>& work) {
-  const double wall = wallClock(), cpu = cpuClock();
+  standsWall_ = wallSeconds();
+  standsCpu_ = cpuSeconds();
+  stands_ = true;
   work();
-  wall_ += wallClock() - wall;
-  cpu_ += cpuClock() - cpu;
+  stands_ = false;
+  wall_ = wallClock() - standsWall_;
+  cpu_ = cpuClock() - standsCpu_;
 }
 
 RoundsResult runRounds(const RenderRequest& request, const RenderClock& clock, int groups,

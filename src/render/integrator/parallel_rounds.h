@@ -18,11 +18,13 @@ class RenderClock {
   RenderClock();  // starts it
   double wallSeconds() const;
   double cpuSeconds() const;
-  // Calls work() without counting its time.
+  // Calls work() without counting its time: the clock stands still meanwhile.
   void exclude(const std::function<void()>& work);
 
  private:
   double wall_, cpu_;  // when it would have been started without the exclusions
+  bool stands_ = false;
+  double standsWall_ = 0, standsCpu_ = 0;  // where it stands
 };
 
 struct RoundsResult {

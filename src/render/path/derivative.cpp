@@ -15,13 +15,9 @@ extern template struct LogTarget<10>;
 extern template struct LogTarget<12>;
 extern template struct LogTarget<14>;
 extern template struct LogTarget<16>;
-extern template struct MovingLogTarget<4>;
 extern template struct MovingLogTarget<6>;
-extern template struct MovingLogTarget<8>;
 extern template struct MovingLogTarget<10>;
-extern template struct MovingLogTarget<12>;
 extern template struct MovingLogTarget<14>;
-extern template struct MovingLogTarget<16>;
 extern template struct MovingLogTarget<18>;
 }  // namespace growing
 
@@ -42,12 +38,14 @@ bool dispatch(const Scene& scene, const Path& path, Derivative& result) {
   if constexpr (N > kMaxDerivativeDimension + 1) {
     return false;
   } else {
-    if (path.moving && result.dimension + 1 == N) {
-      if constexpr (N >= 4) store<N>(growing::MovingLogTarget<N>::evaluate(scene, path), result);
-      return true;
+    if constexpr (growing::compiledForMoving(N)) {
+      if (path.moving && result.dimension <= N) {
+        store<N>(growing::MovingLogTarget<N>::evaluate(scene, path), result);
+        return true;
+      }
     }
     if constexpr (N <= kMaxDerivativeDimension) {
-      if (result.dimension == N) {
+      if (!path.moving && result.dimension == N) {
         store<N>(growing::LogTarget<N>::evaluate(scene, path), result);
         return true;
       }

@@ -141,8 +141,13 @@ Dual<N> LogTarget<N>::evaluate(const Scene& scene, const Path& path) {
   return evaluateTechnique<N, 0>(scene, path);
 }
 
-// The log target of a path that depends on time, with N - 2 coordinates of its own, then time, and one
-// that nothing depends on, so that only even numbers are compiled.
+// For which N there is a MovingLogTarget: every other even number, and the largest.
+constexpr bool compiledForMoving(int n) {
+  return n > 2 && (n % 4 == 2 || n == kMaxDerivativeDimension + 1);
+}
+
+// The log target of a path that depends on time, by N coordinates: its own, then time, then as many as
+// are left, which nothing depends on, so that few N are compiled.
 template <int N>
 struct MovingLogTarget {
   static Dual<N> evaluate(const Scene& scene, const Path& path);
@@ -150,10 +155,11 @@ struct MovingLogTarget {
 
 template <int N>
 Dual<N> MovingLogTarget<N>::evaluate(const Scene& scene, const Path& path) {
-  Dual<N> u[N - 2];
-  for (int i = 0; i < N - 2; ++i)
+  const int own = path.technique.dimension();
+  Dual<N> u[N - 1];
+  for (int i = 0; i < own; ++i)
     u[i] = Dual<N>::variable(path.sample.u[static_cast<std::size_t>(i)], i);
-  const Dual<N> time = Dual<N>::variable(path.sample.time, N - 2);
+  const Dual<N> time = Dual<N>::variable(path.sample.time, own);
   return replayLogTarget<Dual<N>>(scene, path, u, &time);
 }
 
