@@ -81,7 +81,7 @@ if [[ $quick == no ]]; then
   fi
   if command -v clang++ >/dev/null; then
     if step "build: clang, warnings are errors" \
-      build clang all "${build_options[@]}" "-DH2MC_TEST_FOLDERS=ad;derivative" -DH2MC_BUILD_BENCHMARKS=OFF -DH2MC_DERIVATIVE_EDGES=5; then
+      build clang all "${build_options[@]}" "-DH2MC_TEST_FOLDERS=ad;derivative" -DH2MC_BUILD_BENCHMARKS=OFF -DH2MC_DERIVATIVE_EDGES=4; then
       step "tests: ad and derivative, compiled by clang" clang_tests
     else
       skip "tests: ad and derivative, compiled by clang" "not built"

@@ -13,7 +13,10 @@ constexpr double kFloor = 0.1;
 void blurLines(std::vector<double>& values, int lines, int length, int lineStride, int stride) {
   std::vector<double> old(static_cast<std::size_t>(length));
   for (int line = 0; line < lines; ++line) {
-    const auto at = [&](int i) { return static_cast<std::size_t>(line * lineStride + i * stride); };
+    const auto at = [&](int i) {
+      return static_cast<std::size_t>(line) * static_cast<std::size_t>(lineStride) +
+             static_cast<std::size_t>(i) * static_cast<std::size_t>(stride);
+    };
     for (int i = 0; i < length; ++i) old[static_cast<std::size_t>(i)] = values[at(i)];
     for (int i = 0; i < length; ++i) {
       const auto before = static_cast<std::size_t>(std::max(i - 1, 0)),
@@ -35,7 +38,8 @@ ImportanceMap::ImportanceMap(const Image& picture, const Image& sampled, int cel
   double total = 0;
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
-      const auto k = static_cast<std::size_t>((y / cell) * columns_ + x / cell);
+      const auto k = static_cast<std::size_t>(y / cell) * static_cast<std::size_t>(columns_) +
+                     static_cast<std::size_t>(x / cell);
       const double value = std::max(0.f, luminance(picture.at(x, y)));
       mean[k] += value;
       count[k] += 1;
@@ -72,7 +76,8 @@ float ImportanceMap::interpolate(float filmX, float filmY) const {
   const int j = std::min(static_cast<int>(y), std::max(rows_ - 2, 0));
   const float fx = x - static_cast<float>(i), fy = y - static_cast<float>(j);
   const int right = columns_ > 1 ? 1 : 0, down = rows_ > 1 ? columns_ : 0;
-  const float* v = &values_[static_cast<std::size_t>(j * columns_ + i)];
+  const float* v = &values_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
+                            static_cast<std::size_t>(i)];
   const float above = v[0] + fx * (v[right] - v[0]);
   const float below = v[down] + fx * (v[down + right] - v[down]);
   return above + fy * (below - above);

@@ -24,7 +24,7 @@ TEST_P(OwnScenes, SlowIntegratorsAgree) {
       readTestScene(std::string(H2MC_SOURCE_DIR) + "/scenes/" + name + "/" + name + ".xml", 96, 72);
   const std::vector<std::pair<std::string, std::string>> options{{"maxDepth", "5"}};
   // Bidirectional path tracing sees every path that the chains see, with independent samples.
-  const Runs trusted = renderRuns(scene, "bdpt", options, kRuns, 96, kEdge);
+  const Runs trusted = renderRuns(scene, "bdpt", options, kRuns, 48, kEdge);
   std::vector<double> mean, variance;
   for (std::size_t k = 0; k < trusted.size(); ++k) {
     mean.push_back(trusted.mean(k));
@@ -33,12 +33,12 @@ TEST_P(OwnScenes, SlowIntegratorsAgree) {
   // What limits the chains' mean is their brightness, which the bootstrap gives, and direct light.
   auto chains = options;
   chains.insert(chains.end(),
-                {{"bootstrapSamples", "300000"}, {"directSamples", "96"}, {"chains", "256"}});
+                {{"bootstrapSamples", "150000"}, {"directSamples", "48"}, {"chains", "256"}});
   for (const char* integrator : {"path", "mmlt", "h2mc"}) {
     const bool path = std::string(integrator) == "path";
     expectAgreement(
-        renderRuns(scene, integrator, path ? options : chains, kRuns, path ? 128 : 16, kEdge), mean,
-        variance, 1.2e-2, name + " " + integrator);
+        renderRuns(scene, integrator, path ? options : chains, kRuns, path ? 64 : 8, kEdge), mean,
+        variance, 1.7e-2, name + " " + integrator);
   }
 }
 
