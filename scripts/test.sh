@@ -53,7 +53,7 @@ tidy() {
   local files
   mapfile -t files < <(
     { git -C "$root" log -100 --format= --name-only -- 'src/*.cpp' 2>/dev/null; cd "$root" && find src -name '*.cpp' | sort; } |
-      awk '!seen[$0]++' | while IFS= read -r file; do [[ -e $root/$file ]] && printf '%s\n' "$file"; done | head -n 12)
+      awk '!seen[$0]++' | while IFS= read -r file; do [[ -e $root/$file ]] && printf '%s\n' "$file"; done | head -n 8)
   ((${#files[@]})) || return 0
   printf '%s\n' "${files[@]}"
   (cd "$root" && printf '%s\0' "${files[@]}" | timeout 170 xargs -0 -n1 -P2 clang-tidy --quiet -p build/clang 2> >(
