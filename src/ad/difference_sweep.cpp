@@ -29,8 +29,8 @@ class Tableau {
     double factor = 1;
     for (std::size_t i = 0; i < previous_.size() && i < kColumns; ++i) {
       factor *= 4;
-      const Entry& here = row_[i];
-      const Entry& before = previous_[i];
+      const Entry here = row_[i];  // copies: row_ grows below
+      const Entry before = previous_[i];
       const Entry next{(here.value * factor - before.value) / (factor - 1),
                        (here.noise * factor + before.noise) / (factor - 1)};
       row_.push_back(next);
