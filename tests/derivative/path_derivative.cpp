@@ -81,7 +81,7 @@ TEST_P(PathDerivative, FrozenTopologyGivesTheTracedValue) {
     ++checked;
   });
   EXPECT_GT(checked, 100);
-  EXPECT_GT(techniques_, 5u);
+  EXPECT_GT(techniques_, H2MC_DERIVATIVE_EDGES >= 4 ? 5u : 3u);
   EXPECT_LE(apart, checked / 50) << "paths whose value in float and in double differ by 2 %";
 }
 
