@@ -2,6 +2,7 @@
 // differences.
 
 #include "ad/finite_difference.h"
+
 #include "ad/vec3.h"
 #include "ad_support.h"
 

@@ -1,8 +1,9 @@
 // Vectors of duals: GLM's type takes them, our overloads win over GLM's, and both agree.
 
+#include "ad/vec3.h"
+
 #include <glm/glm.hpp>
 
-#include "ad/vec3.h"
 #include "ad_support.h"
 
 namespace h2mc::ad {
