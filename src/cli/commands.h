@@ -46,4 +46,7 @@ std::vector<IntegratorPlugin> integratorPlugins();
 // What `-D name=value` means to the commands that read a scene. Throws InputError.
 std::map<std::string, std::string> parseDefines(const std::vector<std::string>& definitions);
 
+// Throws InputError if `file` can't be written; an empty name is none. Leaves what is there.
+void checkWritableFile(const std::string& file);
+
 }  // namespace h2mc

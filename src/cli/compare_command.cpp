@@ -98,11 +98,7 @@ void prepareFolder(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (error)
     throw InputError("cannot make the folder \"" + folder.string() + "\": " + error.message());
-  try {
-    AtomicFile probe((folder / "results.csv").string());
-  } catch (const std::exception& e) {
-    throw InputError(e.what());
-  }
+  checkWritableFile((folder / "results.csv").string());
 }
 
 int interrupted(const ComparisonPlan& plan) {

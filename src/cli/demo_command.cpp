@@ -28,11 +28,7 @@ int imageCopy(const ImageCopyOptions& options) {
   const std::string output = options.output.empty()
                                  ? fs::path(options.picture).stem().string() + "-copy.html"
                                  : options.output;
-  try {
-    AtomicFile probe(output);
-  } catch (const std::exception& e) {
-    throw InputError(e.what());
-  }
+  checkWritableFile(output);
   Image picture = readImage(options.picture);
   if (countNonFinite(picture) > 0)
     throw InputError("\"" + options.picture + "\" has pixels that are not finite");

@@ -33,15 +33,6 @@ struct GradcheckOptions {
   bool quiet = false;
 };
 
-void checkWritableFile(const std::string& file) {
-  if (file.empty()) return;
-  try {
-    AtomicFile probe(file);
-  } catch (const std::exception& e) {
-    throw InputError(e.what());
-  }
-}
-
 // The scene's own longest path, as far as paths are usually looked at.
 int depthOf(const Scene& scene) {
   const auto text = scene.options.find("maxDepth");

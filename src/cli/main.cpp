@@ -13,6 +13,7 @@
 #include "compare/comparison.h"
 #include "h2mc_version.h"
 #include "mcmc/integrators.h"
+#include "render/image/atomic_file.h"
 #include "render/image/image_io.h"
 #include "render/scene/properties.h"
 #include "render/scene/suggestion.h"
@@ -34,6 +35,15 @@ std::map<std::string, std::string> parseDefines(const std::vector<std::string>& 
     defines[definition.substr(0, equals)] = definition.substr(equals + 1);
   }
   return defines;
+}
+
+void checkWritableFile(const std::string& file) {
+  if (file.empty()) return;
+  try {
+    AtomicFile probe(file);
+  } catch (const std::exception& e) {
+    throw InputError(e.what());
+  }
 }
 
 namespace {

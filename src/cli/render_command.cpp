@@ -73,12 +73,7 @@ Outputs outputsOf(const RenderOptions& options) {
 void checkOutputs(const Outputs& outputs, const std::string& statistics) {
   checkWritable(outputs.image);
   if (!outputs.png.empty()) checkWritable(outputs.png);
-  if (statistics.empty()) return;
-  try {
-    AtomicFile probe(statistics);
-  } catch (const std::exception& e) {
-    throw InputError(e.what());
-  }
+  checkWritableFile(statistics);
 }
 
 Scene readSceneFor(const RenderOptions& options) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "render/integrator/parallel_rounds.h"
@@ -38,16 +39,16 @@ Chain::Chain(const Target& target, const Path& start, Random random)
       current_(std::make_unique<ChainState>(target.maxLength())),
       proposed_(std::make_unique<ChainState>(target.maxLength())),
       random_(random) {
-  restart(start);
+  current_->path.technique = start.technique;
+  current_->path.sample = start.sample;
+  [[maybe_unused]] const bool positive = target_.evaluate(current_->path);
+  assert(positive);
 }
 
 void Chain::restart(const Path& from) {
+  assert(from.target > 0);
   current_->forget();
-  if (&from != &current_->path) {
-    current_->path.technique = from.technique;
-    current_->path.sample = from.sample;
-  }
-  target_.evaluate(current_->path);
+  current_->path = from;
 }
 
 void Chain::flush(const KernelMixture& kernels, SummedFilm& film) {

@@ -63,7 +63,9 @@ class Chain {
   // The same for a copy of the film that is read while the chain goes on.
   void splatPending(const KernelMixture& kernels, SummedFilm& film) const;
 
-  // Goes on from another path, evaluated anew. Precondition: flushed.
+  // Goes on from a path of another chain, with all that is known of it: traced anew, a path that a lens
+  // perturbation has joined might, by rounding, miss its mark. Preconditions: flushed, a target that is
+  // positive and the present one.
   void restart(const Path& from);
 
   bool moved() const { return moved_; }

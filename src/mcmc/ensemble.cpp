@@ -196,7 +196,8 @@ std::vector<Path> ChainEnsemble::resampled(const ImportanceMap& next) const {
   for (std::size_t i = 0; i < count; ++i) {
     const double at = (static_cast<double>(i) + offset) / static_cast<double>(count) * sum;
     while (k + 1 < count && cumulative[k] <= at) ++k;
-    result.push_back(pathOf(k));
+    Path& path = result.emplace_back(pathOf(k));
+    path.target = h2mc::luminance(path.contribution) * next(path.filmX, path.filmY);
   }
   return result;
 }

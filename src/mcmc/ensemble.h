@@ -9,11 +9,11 @@ namespace h2mc {
 
 struct MetropolisMethod;
 
-// Chains run in epochs. In the first, the target is the luminance; each of the later ones, four times as
-// long as all before it together, divides it by what the picture is known to look like by then
-// (ImportanceMap), unless the options have large steps or the map switched off. The chains' states go
-// over to the new target by importance resampling. Every epoch's image by itself tends to the right one;
-// the result is their mean, each with its number of mutations.
+// Chains run in epochs. In the first, the target is the luminance; each of the later ones, three times
+// as long as all before it together, divides it by what the picture is known to look like by then
+// (ImportanceMap), unless the options switch that off. The chains' states go over to the new target by
+// importance resampling. Every epoch's image by itself tends to the right one; the result is their
+// mean, each with its number of mutations.
 class ChainEnsemble {
  public:
   // Chains start from the bootstrap's samples. Keeps references, but not to the request.

@@ -5,8 +5,7 @@
 #include <memory>
 
 #include "ad/dual2.h"
-#include "mcmc/chain.h"
-#include "mcmc/small_step.h"
+#include "toy_kernels.h"
 
 namespace h2mc::test {
 namespace {
@@ -130,12 +129,7 @@ Histogram expectedShares() {
   return h;
 }
 
-struct Mixture {
-  const char* name;
-  double large, isotropic, hamiltonian;
-  StepShape shape;
-  float sigma;
-};
+using Mixture = ToyMixture;
 
 class ChainOnHalfMoving : public testing::TestWithParam<Mixture> {};
 
@@ -143,20 +137,8 @@ class ChainOnHalfMoving : public testing::TestWithParam<Mixture> {};
 TEST_P(ChainOnHalfMoving, KeepsTheDistribution) {
   const Mixture& mixture = GetParam();
   const HalfMovingTarget target;
-  TechniqueDistribution techniques(1, 2);
-  std::vector<double> weights(static_cast<std::size_t>(techniques.size()), 0);
-  for (const Technique& t : HalfMovingTarget::kTechniques)
-    weights[static_cast<std::size_t>(techniques.index(t))] = 1;
-  techniques.setWeights(weights, std::vector<bool>(weights.size(), true));
-  KernelMixture kernels;
-  kernels.large = std::make_unique<MultiplexedLargeStep>(target, techniques);
-  kernels.largeProbability = mixture.large;
-  kernels.small.push_back({std::make_unique<IsotropicStep>(target, mixture.shape, mixture.sigma),
-                           mixture.isotropic, mixture.isotropic});
-  HamiltonianSettings settings;
-  settings.sigma = mixture.sigma;
-  kernels.small.push_back({std::make_unique<HamiltonianStep>(target, settings), mixture.hamiltonian,
-                           mixture.hamiltonian});
+  const TechniqueDistribution techniques = evenly(HalfMovingTarget::kTechniques);
+  KernelMixture kernels = toyKernels(target, techniques, mixture);
 
   constexpr int kChains = 60000, kSteps = 16;
   static const Histogram expected = expectedShares();

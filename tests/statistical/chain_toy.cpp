@@ -6,8 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "mcmc/chain.h"
-#include "mcmc/small_step.h"
+#include "toy_kernels.h"
 #include "toy_target.h"
 
 namespace h2mc::test {
@@ -94,12 +93,7 @@ struct Histograms {
   }
 };
 
-struct Mixture {
-  const char* name;
-  double large, isotropic, hamiltonian;
-  StepShape shape;
-  float sigma;
-};
+using Mixture = ToyMixture;
 
 class ChainOnToy : public testing::TestWithParam<Mixture> {};
 
@@ -108,21 +102,8 @@ class ChainOnToy : public testing::TestWithParam<Mixture> {};
 TEST_P(ChainOnToy, KeepsTheDistribution) {
   const Mixture& mixture = GetParam();
   const ToyTarget target;
-  TechniqueDistribution techniques(1, 2);
-  std::vector<double> weights(static_cast<std::size_t>(techniques.size()), 0);
-  for (const Technique& t : ToyTarget::kTechniques)
-    weights[static_cast<std::size_t>(techniques.index(t))] = 1;
-  techniques.setWeights(weights, std::vector<bool>(weights.size(), true));
-
-  KernelMixture kernels;
-  kernels.large = std::make_unique<MultiplexedLargeStep>(target, techniques);
-  kernels.largeProbability = mixture.large;
-  kernels.small.push_back({std::make_unique<IsotropicStep>(target, mixture.shape, mixture.sigma),
-                           mixture.isotropic, mixture.isotropic});
-  HamiltonianSettings settings;
-  settings.sigma = mixture.sigma;
-  kernels.small.push_back({std::make_unique<HamiltonianStep>(target, settings), mixture.hamiltonian,
-                           mixture.hamiltonian});
+  const TechniqueDistribution techniques = evenly(ToyTarget::kTechniques);
+  KernelMixture kernels = toyKernels(target, techniques, mixture);
 
   constexpr int kChains = 60000, kSteps = 25;
   const Histograms expected = Histograms::expected();
