@@ -15,17 +15,18 @@ void isotropicGaussian(int dimension, float sigma, Gaussian& gaussian) {
   gaussian.logNormalisation = -dimension * std::log(double(sigma));
 }
 
-bool hamiltonianGaussian(const Derivative& derivative, const HamiltonianSettings& settings,
-                         Gaussian& gaussian) {
-  const int n = derivative.dimension;
-  isotropicGaussian(n, settings.sigma, gaussian);
-  if (!derivative.finite()) return false;
+namespace {
 
+// For derivatives of at most kMost coordinates, all finite; `gaussian` is the prior.
+template <int kMost>
+bool sharpen(const Derivative& derivative, const HamiltonianSettings& settings,
+             Gaussian& gaussian) {
+  const int n = derivative.dimension;
   // In double: single precision loses the small eigenvalues of graded matrices.
-  double matrix[kMaxDerivativeDimension * kMaxDerivativeDimension];
+  double matrix[kMost * kMost];
   for (int i = 0, k = 0; i < n; ++i)
     for (int j = 0; j <= i; ++j, ++k) matrix[i * n + j] = derivative.hessian[k];
-  ad::SymmetricEigen<kMaxDerivativeDimension> eigen;
+  ad::SymmetricEigen<kMost> eigen;
   if (!eigen.compute(matrix, n, n)) return false;
 
   const double prior = double(settings.sigma) * settings.sigma, length = settings.trajectory;
@@ -41,7 +42,7 @@ bool hamiltonianGaussian(const Derivative& derivative, const HamiltonianSettings
     double slope = 0;
     for (int k = 0; k < n; ++k) {
       slope += vector[k] * derivative.gradient[k];
-      gaussian.vectors[i][k] = static_cast<float>(vector[k]);
+      gaussian.vectors[i * n + k] = static_cast<float>(vector[k]);
     }
     const double drift = c[negative] / s2[negative] * variance * slope;
     const double longest = settings.maxDrift * deviation;
@@ -52,6 +53,18 @@ bool hamiltonianGaussian(const Derivative& derivative, const HamiltonianSettings
   return true;
 }
 
+}  // namespace
+
+bool hamiltonianGaussian(const Derivative& derivative, const HamiltonianSettings& settings,
+                         Gaussian& gaussian) {
+  isotropicGaussian(derivative.dimension, settings.sigma, gaussian);
+  if (!derivative.finite()) return false;
+  // Rows as long as they have to be.
+  if (derivative.dimension <= 8) return sharpen<8>(derivative, settings, gaussian);
+  if (derivative.dimension <= 16) return sharpen<16>(derivative, settings, gaussian);
+  return sharpen<kMaxDerivativeDimension>(derivative, settings, gaussian);
+}
+
 void Gaussian::sample(Random& random, float* offset) const {
   if (isotropic) {
     for (int i = 0; i < dimension; ++i) offset[i] = deviation[i] * random.normal();
@@ -60,7 +73,7 @@ void Gaussian::sample(Random& random, float* offset) const {
   std::fill_n(offset, dimension, 0.f);
   for (int i = 0; i < dimension; ++i) {
     const float along = mean[i] + deviation[i] * random.normal();
-    for (int k = 0; k < dimension; ++k) offset[k] += along * vectors[i][k];
+    for (int k = 0; k < dimension; ++k) offset[k] += along * vectors[i * dimension + k];
   }
 }
 
@@ -72,7 +85,7 @@ double Gaussian::logDensity(const float* offset) const {
       along = offset[i];
     } else {
       along = -mean[i];
-      for (int k = 0; k < dimension; ++k) along += vectors[i][k] * offset[k];
+      for (int k = 0; k < dimension; ++k) along += vectors[i * dimension + k] * offset[k];
     }
     sum += squared(double(along) / deviation[i]);
   }

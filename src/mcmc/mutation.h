@@ -33,7 +33,6 @@ struct ChainState {
 struct DerivativeCounts {
   long long computed = 0;
   long long notFinite = 0;  // the prior took their place
-  long long dimension = 0;  // too many coordinates for the derivative: likewise
 };
 
 // Seconds that sampled mutations spent in each part; see Profile.

@@ -83,20 +83,12 @@ bool IsotropicStep::propose(ChainState& current, ChainState& proposed, MutationC
 void HamiltonianStep::prepare(ChainState& state, MutationContext& context) const {
   if (state.hasGaussian) return;
   state.hasGaussian = true;
-  const int dimension = state.path.dimension();
-  if (dimension > kMaxDerivativeDimension) {
-    ++context.derivatives.dimension;
-    return;
-  }
   const double start = context.timed ? wallClock() : 0;
   Derivative derivative;
   ++context.derivatives.computed;
-  const bool differentiated = target_.differentiate(state.path, derivative);
+  target_.differentiate(state.path, derivative);
   const double middle = context.timed ? wallClock() : 0;
-  if (!differentiated || !hamiltonianGaussian(derivative, settings_, state.gaussian)) {
-    ++context.derivatives.notFinite;
-    isotropicGaussian(dimension, settings_.sigma, state.gaussian);
-  }
+  if (!hamiltonianGaussian(derivative, settings_, state.gaussian)) ++context.derivatives.notFinite;
   if (context.timed) {
     context.seconds.derivatives += middle - start;
     context.seconds.gaussian += wallClock() - middle;
@@ -117,18 +109,12 @@ bool HamiltonianStep::propose(ChainState& current, ChainState& proposed, Mutatio
   const Path& from = current.path;
   Path& to = proposed.path;
   const int dimension = from.technique.dimension();
-  // The same for both states: even dimensions are the technique's own, an odd one more is time.
-  const bool differentiable = from.dimension() <= kMaxDerivativeDimension;
   const bool hasTime = target_.hasTime();
   prepare(current, context);
-  float offset[2 * kMaxPathLength + 1];
-  int drawn = 0;
-  if (differentiable) {
-    current.gaussian.sample(*context.random, offset);
-    drawn = current.gaussian.dimension;
-  }
-  // Longer than the derivative goes, or time alone: the prior, which is symmetric.
-  for (int i = drawn; i < dimension + hasTime; ++i)
+  float offset[kMaxDerivativeDimension];
+  current.gaussian.sample(*context.random, offset);
+  // Time that the path does not depend on: the prior.
+  for (int i = current.gaussian.dimension; i < dimension + hasTime; ++i)
     offset[i] = settings_.sigma * context.random->normal();
   to.technique = from.technique;
   to.sample.choice = from.sample.choice;
@@ -138,10 +124,8 @@ bool HamiltonianStep::propose(ChainState& current, ChainState& proposed, Mutatio
     return false;
   // The way back must be one that the reverse proposal can take.
   if (to.wraps != from.wraps) return false;
-  logRatio = 0;
-  if (!differentiable) return true;
   prepare(proposed, context);
-  float forward[kMaxDerivativeDimension + 1], back[kMaxDerivativeDimension + 1];
+  float forward[kMaxDerivativeDimension], back[kMaxDerivativeDimension];
   offsetBetween(from.sample, to.sample, dimension, from.wraps, forward);
   forward[dimension] = to.sample.time - from.sample.time;
   for (int i = 0; i <= dimension; ++i) back[i] = -forward[i];

@@ -33,7 +33,6 @@ void ChainStatistics::add(const ChainStatistics& other) {
       acceptance[kind][length].add(other.acceptance[kind][length]);
   derivatives.computed += other.derivatives.computed;
   derivatives.notFinite += other.derivatives.notFinite;
-  derivatives.dimension += other.derivatives.dimension;
   largeSteps.add(other.largeSteps);
   profile.add(other.profile);
   mutations += other.mutations;
@@ -67,8 +66,7 @@ nlohmann::json ChainStatistics::json(const std::vector<std::string>& kindNames) 
       {"mutation kinds", kinds},
       {"derivatives",
        {{"computed", derivatives.computed},
-        {"not finite", derivatives.notFinite},
-        {"too many coordinates", derivatives.dimension}}},
+        {"not finite", derivatives.notFinite}}},
       {"time shares",
        {{"tracing", share(profile.rays)},
         {"derivatives", share(profile.derivatives)},

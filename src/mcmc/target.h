@@ -14,8 +14,8 @@ class Target {
   // Fills in everything of `path` that follows from its technique and primary sample. Returns
   // path.target > 0.
   virtual bool evaluate(Path& path) const = 0;
-  // Derivatives of log(path.target); false where they are not to be had (too many coordinates).
-  virtual bool differentiate(const Path& path, Derivative& result) const = 0;
+  // Derivatives of log(path.target).
+  virtual void differentiate(const Path& path, Derivative& result) const = 0;
   virtual int maxLength() const = 0;
   // Whether time is a further coordinate of every state: PrimarySample::time in [0, 1). Derivatives
   // have it as their last coordinate where path.moving.
@@ -40,8 +40,8 @@ class SceneTarget final : public Target {
     return double(luminance(c.contribution)) * importance_(c.filmX, c.filmY);
   }
   // Of the luminance alone: the importance varies little within a proposal's reach.
-  bool differentiate(const Path& path, Derivative& result) const override {
-    return h2mc::differentiate(scene_, path, result);
+  void differentiate(const Path& path, Derivative& result) const override {
+    h2mc::differentiate(scene_, path, result);
   }
   int maxLength() const override { return maxLength_; }
   bool hasTime() const override { return scene_.moving; }

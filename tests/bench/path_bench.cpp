@@ -64,7 +64,16 @@ void value(benchmark::State& state, const std::string& file, int length) {
 void derivative(benchmark::State& state, const std::string& file, int length) {
   Derivative result;
   overPaths(state, file, length, [&](const Scene& scene, const Path& path) {
-    differentiate(scene, path, result);
+    differentiateLocally(scene, path, result);
+    benchmark::DoNotOptimize(result);
+  });
+}
+
+void plainDerivative(benchmark::State& state, const std::string& file, int length) {
+  if (2 * length > kMaxPlainDimension) return state.SkipWithError("not compiled");
+  Derivative result;
+  overPaths(state, file, length, [&](const Scene& scene, const Path& path) {
+    differentiatePlainly(scene, path, result);
     benchmark::DoNotOptimize(result);
   });
 }
@@ -129,6 +138,7 @@ void registerScene(const std::string& name, const std::string& file) {
   };
   add("value", value);
   add("derivative", derivative);
+  add("plain derivative", plainDerivative);
   add("derivative+gaussian", gaussian);
   add("sample+density", sampleAndDensity);
   using Make = std::function<std::unique_ptr<Mutation>(const SceneTarget&)>;

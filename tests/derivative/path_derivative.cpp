@@ -11,6 +11,7 @@
 #include "render/path/derivative.h"
 #include "render/path/path_text.h"
 #include "render/path/replay.h"
+#include "render/path/replay_double.h"
 #include "render/scene/scene_reader.h"
 #include "sampled_paths.h"
 
@@ -83,6 +84,43 @@ TEST_P(PathDerivative, FrozenTopologyGivesTheTracedValue) {
   EXPECT_GT(checked, 100);
   EXPECT_GT(techniques_, H2MC_DERIVATIVE_EDGES >= 4 ? 5u : 3u);
   EXPECT_LE(apart, checked / 50) << "paths whose value in float and in double differ by 2 %";
+}
+
+// The vertex-local form against the plain one, both in double, so that nothing but a mistake can part
+// them.
+TEST_P(PathDerivative, LocalFormIsThePlainOne) {
+  int checked = 0;
+  double worst = 0;
+  techniques_ = test::forSampledPaths(
+      *scene_, GetParam().maxLength, 10, 3000, [&](const Path& path, float) {
+        double u[kMostCoordinates];
+        pathCoordinates(path, u);
+        const auto plain = differentiateInDouble(*scene_, path, u);
+        const auto local = differentiateLocallyInDouble(*scene_, path, u);
+        if (!plain.finite()) return;
+        ++checked;
+        EXPECT_NEAR(local.value, plain.value, 1e-8);
+        const int n = path.dimension();
+        const auto scale = [&](int i) {
+          const auto diagonal = static_cast<std::size_t>(ad::triangleIndex(i, i));
+          return std::max({1.0, std::abs(plain.gradient[static_cast<std::size_t>(i)]),
+                           std::sqrt(std::abs(plain.hessian[diagonal]))});
+        };
+        double error = 0;
+        for (int i = 0; i < n; ++i) {
+          const auto g = static_cast<std::size_t>(i);
+          error = std::max(error, std::abs(local.gradient[g] - plain.gradient[g]) / scale(i));
+          for (int j = 0; j <= i; ++j) {
+            const auto h = static_cast<std::size_t>(ad::triangleIndex(i, j));
+            error = std::max(error, std::abs(local.hessian[h] - plain.hessian[h]) /
+                                        (scale(i) * scale(j)));
+          }
+        }
+        EXPECT_LE(error, 1e-6) << pathText(path.technique, path.sample);
+        worst = std::max(worst, error);
+      });
+  std::printf("%s: %d paths, worst difference %.1e\n", GetParam().name, checked, worst);
+  EXPECT_GT(checked, 50);
 }
 
 TEST_P(PathDerivative, SlowAgreesWithFiniteDifferences) {

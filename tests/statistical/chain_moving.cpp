@@ -63,14 +63,17 @@ class HalfMovingTarget final : public Target {
     return path.target > 0;
   }
 
-  bool differentiate(const Path& path, Derivative& result) const override {
-    return path.technique.dimension() == 2 ? derive<2>(path, result) : derive<4>(path, result);
+  void differentiate(const Path& path, Derivative& result) const override {
+    if (path.technique.dimension() == 2)
+      derive<2>(path, result);
+    else
+      derive<4>(path, result);
   }
 
  private:
   // The N coordinates and time, of which the path may not depend on the last.
   template <int N>
-  static bool derive(const Path& path, Derivative& result) {
+  static void derive(const Path& path, Derivative& result) {
     using D = ad::Dual2<float, N + 1>;
     D u[4];  // as many as any technique has
     for (int i = 0; i < N; ++i) u[i] = D::variable(path.sample.u[static_cast<std::size_t>(i)], i);
@@ -82,7 +85,6 @@ class HalfMovingTarget final : public Target {
       result.gradient[i] = f.gradient(i);
       for (int j = 0; j <= i; ++j, ++k) result.hessian[k] = f.hessian(i, j);
     }
-    return true;
   }
 };
 

@@ -61,13 +61,16 @@ class ToyTarget final : public Target {
     return path.target > 0;
   }
 
-  bool differentiate(const Path& path, Derivative& result) const override {
-    return path.technique.dimension() == 2 ? derive<2>(path, result) : derive<4>(path, result);
+  void differentiate(const Path& path, Derivative& result) const override {
+    if (path.technique.dimension() == 2)
+      derive<2>(path, result);
+    else
+      derive<4>(path, result);
   }
 
  private:
   template <int N>
-  static bool derive(const Path& path, Derivative& result) {
+  static void derive(const Path& path, Derivative& result) {
     using D = ad::Dual2<float, N>;
     D u[N];
     for (int i = 0; i < N; ++i) u[i] = D::variable(path.sample.u[static_cast<std::size_t>(i)], i);
@@ -78,7 +81,6 @@ class ToyTarget final : public Target {
       result.gradient[i] = f.gradient(i);
       for (int j = 0; j <= i; ++j, ++k) result.hessian[k] = f.hessian(i, j);
     }
-    return true;
   }
 };
 

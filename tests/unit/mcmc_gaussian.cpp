@@ -48,7 +48,7 @@ TEST(HamiltonianGaussian, IsTheEndPointOfTheDynamicsTimesThePrior) {
       // Product with N(0, sigma^2): precisions add.
       const double precision = 1 / variance + 1 / (0.8 * 0.8);
       EXPECT_NEAR(gaussian.deviation[0], std::sqrt(1 / precision), 1e-4) << l << " " << length;
-      EXPECT_NEAR(gaussian.mean[0] * gaussian.vectors[0][0], mean / variance / precision, 1e-4)
+      EXPECT_NEAR(gaussian.mean[0] * gaussian.vectors[0], mean / variance / precision, 1e-4)
           << l << " " << length;
     }
 }

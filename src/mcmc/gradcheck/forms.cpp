@@ -5,17 +5,29 @@
 namespace h2mc {
 namespace {
 
-bool plain(const Scene& scene, const Path& path, ad::DerivativeValues& result) {
-  Derivative d;
-  if (!differentiate(scene, path, d)) return false;
+void copy(const Derivative& d, ad::DerivativeValues& result) {
   const int n = d.dimension;
   result.value = d.logTarget;
   result.gradient.assign(d.gradient, d.gradient + n);
   result.hessian.assign(d.hessian, d.hessian + n * (n + 1) / 2);
+}
+
+bool local(const Scene& scene, const Path& path, ad::DerivativeValues& result) {
+  Derivative d;
+  differentiateLocally(scene, path, d);
+  copy(d, result);
+  return true;
+}
+
+bool plain(const Scene& scene, const Path& path, ad::DerivativeValues& result) {
+  Derivative d;
+  if (!differentiatePlainly(scene, path, d)) return false;
+  copy(d, result);
   return true;
 }
 
 constexpr DerivativeForm kForms[] = {
+    {"local", "vertex by vertex, composed along the path", local},
     {"plain", "whole-path Dual2, growing along the path", plain},
 };
 static_assert(std::size(kForms) <= kMostForms);

@@ -56,10 +56,11 @@ Vec2<Scalar<T>> value2(const Vec2<T>& a) {
 }
 
 // Y of linear Rec. 709 RGB.
+inline constexpr double kLuminance[3] = {0.212671, 0.715160, 0.072169};
 template <class T>
 T luminance(const Rgb<T>& c) {
   using S = Scalar<T>;
-  return c.x * S(0.212671) + c.y * S(0.715160) + c.z * S(0.072169);
+  return c.x * S(kLuminance[0]) + c.y * S(kLuminance[1]) + c.z * S(kLuminance[2]);
 }
 
 template <class T>

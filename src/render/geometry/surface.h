@@ -109,6 +109,39 @@ SurfacePoint<T> intersectPrimitive(std::span<const Shape> shapes, PrimitiveId id
   });
 }
 
+// The same point by two coordinates on the surface, which pointOnPrimitive understands: what passes
+// from one step along a path to the next. `around` is a point of the surface near by (the same for both
+// functions, in the same scene at the same time): spheres have no coordinates that are good everywhere.
+// `distance` is left with the length of the ray.
+template <class T>
+Vec2<T> coordinatesOnPrimitive(std::span<const Shape> shapes, PrimitiveId id, const Vec3f& around,
+                               const Vec3<T>& origin, const Vec3<T>& direction, T& distance,
+                               const std::type_identity_t<T>* time = nullptr) {
+  return detail::withView<T>(shapes[id.shape], time, [&](const auto& view) -> Vec2<T> {
+    if constexpr (requires { view.radius; })
+      return detail::chartAround(view, Vec3<Scalar<T>>(around))
+          .coordinates(detail::meetSphere<T>(view, id.primitive, origin, direction, distance));
+    else if constexpr (requires { view.axisX; })
+      return detail::diskCoordinates<T>(view, origin, direction, distance);
+    else
+      return detail::triangleCoordinates<T>(view, id.primitive, origin, direction, distance);
+  });
+}
+
+template <class T>
+SurfacePoint<T> pointOnPrimitive(std::span<const Shape> shapes, PrimitiveId id, const Vec3f& around,
+                                 const Vec2<T>& at, const std::type_identity_t<T>* time = nullptr) {
+  return detail::withView<T>(shapes[id.shape], time, [&](const auto& view) -> SurfacePoint<T> {
+    if constexpr (requires { view.radius; })
+      return detail::spherePoint<T>(
+          view, detail::chartAround(view, Vec3<Scalar<T>>(around)).direction(at));
+    else if constexpr (requires { view.axisX; })
+      return detail::diskPoint<T>(view, at.x, at.y);
+    else
+      return detail::trianglePointAt<T>(view, id.primitive, at);
+  });
+}
+
 // A point uniform by area on the primitive (on the whole shape for spheres, disks and
 // parallelograms) from u in [0,1)^2. Derivatives are finite everywhere; they grow without bound
 // towards a triangle's corner (u0 -> 1), a sphere's poles and a disk's centre.

@@ -80,15 +80,24 @@ void dualAxes(const DiskView<P>& disk, Vec3<P>& dualX, Vec3<P>& dualY) {
   }
 }
 
+// Coordinates along the axes where a line meets the disk's plane.
+template <class T, class P>
+Vec2<T> diskCoordinates(const DiskView<P>& disk, const Vec3<T>& origin, const Vec3<T>& direction,
+                        T& distance) {
+  const Vec3<T> start = origin - disk.center;
+  distance = -dot(start, disk.normal) / dot(direction, disk.normal);
+  const Vec3<T> p = start + direction * distance;
+  Vec3<P> dualX, dualY;
+  dualAxes<P>(disk, dualX, dualY);
+  return {dot(p, dualX), dot(p, dualY)};
+}
+
 template <class T, class P>
 SurfacePoint<T> intersectDisk(const DiskView<P>& disk, const Vec3<T>& origin,
                               const Vec3<T>& direction) {
-  const Vec3<T> start = origin - disk.center;
-  const T t = -dot(start, disk.normal) / dot(direction, disk.normal);
-  const Vec3<T> p = start + direction * t;
-  Vec3<P> dualX, dualY;
-  dualAxes<P>(disk, dualX, dualY);
-  return diskPoint<T>(disk, T(dot(p, dualX)), T(dot(p, dualY)));
+  T distance;
+  const Vec2<T> at = diskCoordinates<T>(disk, origin, direction, distance);
+  return diskPoint<T>(disk, at.x, at.y);
 }
 
 template <class T, class P>

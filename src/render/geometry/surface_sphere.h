@@ -1,6 +1,7 @@
 // Points on spheres.
 #pragma once
 
+#include "render/core/direction_chart.h"
 #include "render/core/safe_math.h"
 #include "render/geometry/moment.h"
 #include "render/geometry/shape.h"
@@ -68,11 +69,11 @@ SurfacePoint<T> spherePoint(const SphereView<P>& sphere, const Vec3<T>& n) {
   return r;
 }
 
-// root 0: the nearer, 1: the farther intersection along the line. The line is taken to touch where
-// it misses by rounding.
+// The unit vector from the centre to where a line meets the sphere. root 0: the nearer, 1: the farther
+// intersection. The line is taken to touch where it misses by rounding.
 template <class T, class P>
-SurfacePoint<T> intersectSphere(const SphereView<P>& sphere, std::uint32_t root,
-                                const Vec3<T>& origin, const Vec3<T>& direction) {
+Vec3<T> meetSphere(const SphereView<P>& sphere, std::uint32_t root, const Vec3<T>& origin,
+                   const Vec3<T>& direction, T& distance) {
   using S = Scalar<T>;
   const P& radius = sphere.radius;
   const Vec3<T> start = origin - sphere.center;
@@ -84,12 +85,25 @@ SurfacePoint<T> intersectSphere(const SphereView<P>& sphere, std::uint32_t root,
   const T half = safeSqrt(discriminant) * radius;
   const bool farRootIsLarger = value(closest) >= 0;
   const T larger = farRootIsLarger ? T(closest + half) : T(closest - half);
-  T t = larger;
+  distance = larger;
   if ((root == 1) != farRootIsLarger && value(larger) != 0) {
     // The product of the roots: no cancellation where the origin lies on the sphere.
-    t = (ad::length2(start) - radius * radius) / larger;
+    distance = (ad::length2(start) - radius * radius) / larger;
   }
-  return spherePoint<T>(sphere, ad::normalize(Vec3<T>(start + direction * t)));
+  return ad::normalize(Vec3<T>(start + direction * distance));
+}
+
+template <class T, class P>
+SurfacePoint<T> intersectSphere(const SphereView<P>& sphere, std::uint32_t root,
+                                const Vec3<T>& origin, const Vec3<T>& direction) {
+  T distance;
+  return spherePoint<T>(sphere, meetSphere<T>(sphere, root, origin, direction, distance));
+}
+
+// Directions near the one from the centre to the point `around`.
+template <class P>
+DirectionChart<Scalar<P>> chartAround(const SphereView<P>& sphere, const Vec3<Scalar<P>>& around) {
+  return DirectionChart<Scalar<P>>(glm::normalize(around - Vec3<Scalar<P>>(sphere.exactCenter)));
 }
 
 template <class T, class P>

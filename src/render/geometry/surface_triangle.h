@@ -109,20 +109,67 @@ SurfacePoint<T> trianglePoint(const View& mesh, std::uint32_t index, const T& b1
   return r;
 }
 
+// Where a line meets the triangle's plane, relative to its corner p0.
+template <class T, class P>
+Vec3<T> meetPlane(const Triangle<P>& triangle, const Vec3<T>& origin, const Vec3<T>& direction,
+                  T& distance) {
+  // Relative to a corner, so that everything is of the triangle's own magnitude.
+  const Vec3<T> start = origin - triangle.p0;
+  distance = -dot(start, triangle.normal) / dot(direction, triangle.normal);
+  return start + direction * distance;
+}
+
 template <class T, class View>
 SurfacePoint<T> intersectTriangle(const View& mesh, std::uint32_t index, const Vec3<T>& origin,
                                   const Vec3<T>& direction) {
   const auto triangle = triangleOf(mesh, index);
-  // Relative to a corner, so that everything below is of the triangle's own magnitude.
-  const Vec3<T> start = origin - triangle.p0;
-  const T t = -dot(start, triangle.normal) / dot(direction, triangle.normal);
-  const Vec3<T> p = start + direction * t;
+  T distance;
+  const Vec3<T> p = meetPlane(triangle, origin, direction, distance);
   // b1 and b2 are linear in p: the edges' dual basis.
   const auto dual1 = cross(triangle.e2, triangle.normal) * triangle.inverseArea2;
   const auto dual2 = cross(triangle.normal, triangle.e1) * triangle.inverseArea2;
   const T b1 = dot(p, dual1), b2 = dot(p, dual2);
   SurfacePoint<T> r;
   r.p = p;
+  if constexpr (ad::isDual<typename View::P>) r.p = r.p + triangle.p0;
+  r.p = withValue<T>(r.p, pointOnTriangle(triangle, value(b1), value(b2)));
+  finishTrianglePoint<T>(mesh, index, triangle.normal, b1, b2, r);
+  return r;
+}
+
+// Coordinates in the triangle's plane: lengths along its first edge and across it, from corner p0. Well
+// conditioned however thin the triangle is.
+template <class P>
+struct PlaneAxes {
+  Vec3<P> x, y;
+  explicit PlaneAxes(const Triangle<P>& triangle) {
+    using S = Scalar<P>;
+    const S scale = S(1 / std::max(glm::length(triangle.ab), 1e-30));
+    x = ad::normalize(Vec3<P>(triangle.e1 * scale));
+    y = cross(triangle.normal, x);
+  }
+};
+
+template <class T, class View>
+Vec2<T> triangleCoordinates(const View& mesh, std::uint32_t index, const Vec3<T>& origin,
+                            const Vec3<T>& direction, T& distance) {
+  const auto triangle = triangleOf(mesh, index);
+  const PlaneAxes axes(triangle);
+  const Vec3<T> p = meetPlane(triangle, origin, direction, distance);
+  return {dot(p, axes.x), dot(p, axes.y)};
+}
+
+template <class T, class View>
+SurfacePoint<T> trianglePointAt(const View& mesh, std::uint32_t index, const Vec2<T>& at) {
+  const auto triangle = triangleOf(mesh, index);
+  const PlaneAxes axes(triangle);
+  const auto dual1 = cross(triangle.e2, triangle.normal) * triangle.inverseArea2;
+  const auto dual2 = cross(triangle.normal, triangle.e1) * triangle.inverseArea2;
+  const T b1 = weighted2(at.x, dot(axes.x, dual1), at.y, dot(axes.y, dual1));
+  const T b2 = weighted2(at.x, dot(axes.x, dual2), at.y, dot(axes.y, dual2));
+  SurfacePoint<T> r;
+  r.p = {weighted2(at.x, axes.x.x, at.y, axes.y.x), weighted2(at.x, axes.x.y, at.y, axes.y.y),
+         weighted2(at.x, axes.x.z, at.y, axes.y.z)};
   if constexpr (ad::isDual<typename View::P>) r.p = r.p + triangle.p0;
   r.p = withValue<T>(r.p, pointOnTriangle(triangle, value(b1), value(b2)));
   finishTrianglePoint<T>(mesh, index, triangle.normal, b1, b2, r);

@@ -25,51 +25,99 @@ struct Contribution {
   static Contribution none() { return {Rgb<T>(T(0)), T(0)}; }
 };
 
-// 1 / (1 + a^2 + b^2), a, b >= 0. Scaled by the largest of the three, so that neither the squares
+// What a technique's last step adds to what the subpaths bring along. With x = light.vcm * light's vcm
+// and so on, the MIS weight is 1 / (1 + direct^2 + the other four's squares). Zeros are structural.
+template <class T>
+struct Link {
+  struct Factors {
+    T vcm, vc;  // of the subpath's own
+  };
+  Rgb<T> value;
+  T direct;
+  Factors camera, light;
+
+  bool zero() const {
+    return !(ad::value(value.x) > 0) && !(ad::value(value.y) > 0) && !(ad::value(value.z) > 0);
+  }
+  explicit Link(const Rgb<T>& v) : value(v), direct(0), camera{T(0), T(0)}, light{T(0), T(0)} {}
+  static Link none() { return Link(Rgb<T>(T(0))); }
+};
+
+// 1 / (1 + sum of squares of `terms`, all >= 0). Scaled by the largest, so that neither the squares
 // leave float's range nor the derivatives of the quotient, which has the square's cube in it.
 template <class T>
-T powerWeight(const T& a, const T& b) {
+T powerWeight(const T* terms, int count) {
   using S = Scalar<T>;
-  const S scale = S(1) / std::max({S(1), value(a), value(b)});
-  const T x = a * scale, y = b * scale;
-  return (scale * scale) / (x * x + y * y + scale * scale);
+  S largest(1);
+  for (int i = 0; i < count; ++i) largest = std::max(largest, value(terms[i]));
+  const S scale = S(1) / largest;
+  T sum(scale * scale);
+  for (int i = 0; i < count; ++i) {
+    const T x = terms[i] * scale;
+    sum = sum + x * x;
+  }
+  return (scale * scale) / sum;
 }
 
-// s = 0: the camera subpath has arrived at the area light `light`, on its primitive `id`
-// (which only matters if the light moves).
 template <class T>
-Contribution<T> hitAreaLight(const Scene& scene, const PathVertex<T>& vertex,
-                             const Vec3<T>& direction, int light, int t, Techniques techniques,
-                             PrimitiveId id = {}, const std::type_identity_t<T>* time = nullptr) {
-  const auto& l = std::get<AreaLight>(scene.lights[static_cast<std::size_t>(light)]);
-  const LightHit<T> hit =
-      l.template hit<T>(scene.lightContext(), vertex.point, direction, id, time);
-  Contribution<T> c{hit.radiance * vertex.throughput, T(1)};
-  if (t == 2 || c.zero()) return c;
-  const Scalar<T> pick = scene.lightPicker.probability(light);
-  const bool both = techniques == Techniques::kBidirectional;
-  c.weight = powerWeight(hit.directPdf * vertex.vcm * pick,
-                         both ? hit.emissionPdf * vertex.vc * pick : T(0));
+inline constexpr const PathVertex<T>* kNoEnd = nullptr;
+
+// The link's contribution with the subpaths' throughputs and weights. `camera` and `light` have the
+// members throughput, vcm and vc of PathVertex and PathRay; either may be null.
+template <class T, class Camera, class Light>
+Contribution<T> contributionOf(const Link<T>& link, const Camera* camera, const Light* light) {
+  Contribution<T> c{link.value, T(1)};
+  if (camera) c.value = c.value * camera->throughput;
+  if (light) c.value = c.value * light->throughput;
+  if (c.zero()) return c;
+  T terms[5];
+  int count = 0;
+  const auto add = [&](const T& x) {
+    if (value(x) > 0) terms[count++] = x;
+  };
+  add(link.direct);
+  const auto addBoth = [&](const typename Link<T>::Factors& factors, const auto& end) {
+    if (value(factors.vcm) > 0) add(factors.vcm * end.vcm);
+    if (value(factors.vc) > 0) add(factors.vc * end.vc);
+  };
+  if (camera) addBoth(link.camera, *camera);
+  if (light) addBoth(link.light, *light);
+  if (count > 0) c.weight = powerWeight(terms, count);
   return c;
 }
 
-// s = 0: the camera subpath has left the scene.
+// s = 0: the camera subpath has arrived, in world direction `direction`, at the area light `light`, on
+// its primitive `id` (which only matters if the light moves).
 template <class T>
-Contribution<T> hitEnvironment(const Scene& scene, const PathRay<T>& ray, int t,
-                               Techniques techniques) {
+Link<T> linkOfAreaLight(const Scene& scene, const SurfacePoint<T>& point, const Vec3<T>& direction,
+                        int light, int t, Techniques techniques, PrimitiveId id = {},
+                        const std::type_identity_t<T>* time = nullptr) {
+  const auto& l = std::get<AreaLight>(scene.lights[static_cast<std::size_t>(light)]);
+  const LightHit<T> hit = l.template hit<T>(scene.lightContext(), point, direction, id, time);
+  Link<T> link(hit.radiance);
+  if (t == 2 || link.zero()) return link;
+  const Scalar<T> pick = scene.lightPicker.probability(light);
+  link.camera.vcm = hit.directPdf * pick;
+  if (techniques == Techniques::kBidirectional) link.camera.vc = hit.emissionPdf * pick;
+  return link;
+}
+
+// s = 0: the camera subpath has left the scene in world direction `direction`.
+template <class T>
+Link<T> linkOfEnvironment(const Scene& scene, const Vec3<T>& direction, int t,
+                          Techniques techniques) {
   const int light = scene.environment;
   return std::visit(
-      [&](const auto& l) -> Contribution<T> {
-        if (!l.isEnvironment()) return Contribution<T>::none();
+      [&](const auto& l) -> Link<T> {
+        if (!l.isEnvironment()) return Link<T>::none();
         const LightHit<T> hit =
-            l.template hit<T>(scene.lightContext(), SurfacePoint<T>{}, ray.direction);
-        Contribution<T> c{hit.radiance * ray.throughput, T(1)};
-        if (t == 2 || c.zero()) return c;
+            l.template hit<T>(scene.lightContext(), SurfacePoint<T>{}, direction);
+        Link<T> link(hit.radiance);
+        if (t == 2 || link.zero()) return link;
         const Scalar<T> pick = scene.lightPicker.probability(light);
-        const bool both = techniques == Techniques::kBidirectional;
-        c.weight = powerWeight(hit.directPdf * ray.vcm * pick,
-                               both ? hit.emissionPdf * ray.vc * pick : T(0));
-        return c;
+        link.camera.vcm = hit.directPdf * pick;
+        if (techniques == Techniques::kBidirectional) link.camera.vc = hit.emissionPdf * pick;
+        return link;
       },
       scene.lights[static_cast<std::size_t>(light)]);
 }
@@ -77,84 +125,117 @@ Contribution<T> hitEnvironment(const Scene& scene, const PathRay<T>& ray, int t,
 // s = 1: next-event estimation from the camera subpath's last vertex. `direct` is left with the
 // light's sample, for the shadow ray.
 template <class T>
-Contribution<T> connectToLight(const Scene& scene, const PathVertex<T>& vertex, PrimitiveId id,
-                               int light, PrimitiveId primitive, const T& u0, const T& u1,
-                               Techniques techniques, DirectLight<T>& direct,
-                               const std::type_identity_t<T>* time = nullptr) {
+Link<T> linkToLight(const Scene& scene, const Arrival<T>& vertex, PrimitiveId id, int light,
+                    PrimitiveId primitive, const T& u0, const T& u1, Techniques techniques,
+                    DirectLight<T>& direct, const std::type_identity_t<T>* time = nullptr) {
   return std::visit(
-      [&](const auto& l) -> Contribution<T> {
+      [&](const auto& l) -> Link<T> {
         direct =
             sampleDirectAt<T>(l, scene.lightContext(), primitive, vertex.point.p, u0, u1, time);
-        if (!(value(direct.directPdf) > 0)) return Contribution<T>::none();
+        if (!(value(direct.directPdf) > 0)) return Link<T>::none();
         const Vec3<T> wo = vertex.point.shading.toLocal(direct.direction);
         const BsdfValue<T> e =
             evaluateMaterial<T>(scene.bsdfs, materialAt(scene, id), vertex.point.uv, vertex.wi, wo);
         const Scalar<T> pick = scene.lightPicker.probability(light);
         const T inverse = T(1) / (direct.directPdf * pick);
-        Contribution<T> c{vertex.throughput * direct.radiance * e.value * inverse, T(1)};
-        if (c.zero()) return c;
-        const T hitLight = l.isDelta() ? T(0) : e.pdf * inverse;
-        T traced = T(0);
+        Link<T> link(direct.radiance * e.value * inverse);
+        if (link.zero()) return link;
+        if (!l.isDelta()) link.direct = e.pdf * inverse;
         if (techniques == Techniques::kBidirectional) {
           const T cosHere = abs(dot(vertex.point.ng, direct.direction));
-          traced = direct.emissionPdf * cosHere / (direct.directPdf * direct.cosLight) *
-                   rootOfSquares(vertex.vcm, vertex.vc * e.pdfReverse);
+          link.camera.vcm = direct.emissionPdf * cosHere / (direct.directPdf * direct.cosLight);
+          link.camera.vc = link.camera.vcm * e.pdfReverse;
         }
-        c.weight = powerWeight(hitLight, traced);
-        return c;
+        return link;
       },
       scene.lights[static_cast<std::size_t>(light)]);
 }
 
 // s >= 2, t >= 2: an edge between the subpaths' last vertices.
 template <class T>
-Contribution<T> connectVertices(const Scene& scene, const PathVertex<T>& camera,
-                                PrimitiveId cameraId, const PathVertex<T>& light,
-                                PrimitiveId lightId) {
+Link<T> linkOfVertices(const Scene& scene, const Arrival<T>& camera, PrimitiveId cameraId,
+                       const Arrival<T>& light, PrimitiveId lightId) {
   const Vec3<T> edge = light.point.p - camera.point.p;
   const T inverse2 = T(1) / length2(edge);
-  if (!(value(inverse2) < std::numeric_limits<Scalar<T>>::max())) return Contribution<T>::none();
+  if (!(value(inverse2) < std::numeric_limits<Scalar<T>>::max())) return Link<T>::none();
   const Vec3<T> toLight = edge * sqrt(inverse2);
   const Vec3<T> wo = camera.point.shading.toLocal(toLight);
   const BsdfValue<T> ec =
       evaluateMaterial<T>(scene.bsdfs, materialAt(scene, cameraId), camera.point.uv, camera.wi, wo);
-  if (!(value(ec.pdf) > 0)) return Contribution<T>::none();
+  if (!(value(ec.pdf) > 0)) return Link<T>::none();
   const Vec3<T> toCamera = light.point.shading.toLocal(-toLight);
   const BsdfValue<T> el = evaluateMaterial<T>(scene.bsdfs, materialAt(scene, lightId),
                                               light.point.uv, toCamera, light.wi);
   const T cosCamera = abs(dot(camera.point.ng, toLight));
   const T cosLight = abs(dot(light.point.ng, toLight));
   const T spread = cosLight * inverse2;
-  Contribution<T> c{
-      camera.throughput * ec.value * light.throughput * el.value * (spread / light.cosIn), T(1)};
-  if (c.zero()) return c;
-  const T fromCamera = ec.pdf * spread;
-  const T fromLight = el.pdfReverse * cosCamera * inverse2;
-  c.weight = powerWeight(fromCamera * rootOfSquares(light.vcm, light.vc * el.pdf),
-                         fromLight * rootOfSquares(camera.vcm, camera.vc * ec.pdfReverse));
-  return c;
+  Link<T> link(ec.value * el.value * (spread / light.cosIn));
+  if (link.zero()) return link;
+  link.light.vcm = ec.pdf * spread;
+  link.light.vc = link.light.vcm * el.pdf;
+  link.camera.vcm = el.pdfReverse * cosCamera * inverse2;
+  link.camera.vc = link.camera.vcm * ec.pdfReverse;
+  return link;
 }
 
 // t = 1, s >= 2: the light subpath's last vertex is seen by the camera.
 template <class T>
-Contribution<T> connectToCamera(const Scene& scene, const PathVertex<T>& light, PrimitiveId id,
-                                const std::type_identity_t<T>* time = nullptr) {
+Link<T> linkToCamera(const Scene& scene, const Arrival<T>& light, PrimitiveId id,
+                     const std::type_identity_t<T>* time = nullptr) {
   return withCameraPose<T>(scene, time, [&](const auto& pose) {
     const Vec3<T> edge = light.point.p - pose.position;
     const T inverse2 = T(1) / length2(edge);
     const Vec3<T> fromCamera = edge * sqrt(inverse2);
     const T cosine = dot(pose.forward, fromCamera);
-    if (!(value(cosine) > 0)) return Contribution<T>::none();
+    if (!(value(cosine) > 0)) return Link<T>::none();
     const Vec3<T> wi = light.point.shading.toLocal(-fromCamera);
     const BsdfValue<T> e =
         evaluateMaterial<T>(scene.bsdfs, materialAt(scene, id), light.point.uv, wi, light.wi);
     const T cosHere = abs(dot(light.point.ng, fromCamera));
     const T cameraPdf = scene.camera.pdf(cosine) * cosHere * inverse2;  // per area
-    Contribution<T> c{light.throughput * e.value * (cameraPdf / light.cosIn), T(1)};
-    if (c.zero()) return c;
-    c.weight = powerWeight(cameraPdf * rootOfSquares(light.vcm, light.vc * e.pdf), T(0));
-    return c;
+    Link<T> link(e.value * (cameraPdf / light.cosIn));
+    if (link.zero()) return link;
+    link.light.vcm = cameraPdf;
+    link.light.vc = cameraPdf * e.pdf;
+    return link;
   });
+}
+
+// The same with what the subpaths bring along.
+template <class T>
+Contribution<T> hitAreaLight(const Scene& scene, const PathVertex<T>& vertex,
+                             const Vec3<T>& direction, int light, int t, Techniques techniques,
+                             PrimitiveId id = {}, const std::type_identity_t<T>* time = nullptr) {
+  return contributionOf<T>(
+      linkOfAreaLight<T>(scene, vertex.point, direction, light, t, techniques, id, time), &vertex,
+      kNoEnd<T>);
+}
+template <class T>
+Contribution<T> hitEnvironment(const Scene& scene, const PathRay<T>& ray, int t,
+                               Techniques techniques) {
+  return contributionOf<T>(linkOfEnvironment<T>(scene, ray.direction, t, techniques), &ray,
+                           kNoEnd<T>);
+}
+template <class T>
+Contribution<T> connectToLight(const Scene& scene, const PathVertex<T>& vertex, PrimitiveId id,
+                               int light, PrimitiveId primitive, const T& u0, const T& u1,
+                               Techniques techniques, DirectLight<T>& direct,
+                               const std::type_identity_t<T>* time = nullptr) {
+  return contributionOf<T>(
+      linkToLight<T>(scene, vertex, id, light, primitive, u0, u1, techniques, direct, time),
+      &vertex, kNoEnd<T>);
+}
+template <class T>
+Contribution<T> connectVertices(const Scene& scene, const PathVertex<T>& camera,
+                                PrimitiveId cameraId, const PathVertex<T>& light,
+                                PrimitiveId lightId) {
+  return contributionOf<T>(linkOfVertices<T>(scene, camera, cameraId, light, lightId), &camera,
+                           &light);
+}
+template <class T>
+Contribution<T> connectToCamera(const Scene& scene, const PathVertex<T>& light, PrimitiveId id,
+                                const std::type_identity_t<T>* time = nullptr) {
+  return contributionOf<T>(linkToCamera<T>(scene, light, id, time), kNoEnd<T>, &light);
 }
 
 }  // namespace h2mc

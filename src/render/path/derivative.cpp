@@ -1,8 +1,11 @@
 #include "render/path/derivative.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "render/path/derivative_growing.h"
+#include "render/path/local_form.h"
 
 namespace h2mc {
 
@@ -11,14 +14,16 @@ extern template struct LogTarget<2>;
 extern template struct LogTarget<4>;
 extern template struct LogTarget<6>;
 extern template struct LogTarget<8>;
+extern template struct MovingLogTarget<6>;
+extern template struct MovingLogTarget<10>;
+#if H2MC_DERIVATIVE_EDGES > 4
 extern template struct LogTarget<10>;
 extern template struct LogTarget<12>;
 extern template struct LogTarget<14>;
 extern template struct LogTarget<16>;
-extern template struct MovingLogTarget<6>;
-extern template struct MovingLogTarget<10>;
 extern template struct MovingLogTarget<14>;
 extern template struct MovingLogTarget<18>;
+#endif
 }  // namespace growing
 
 namespace {
@@ -35,7 +40,7 @@ void store(const ad::Dual2<float, N>& value, Derivative& result) {
 
 template <int N>
 bool dispatch(const Scene& scene, const Path& path, Derivative& result) {
-  if constexpr (N > kMaxDerivativeDimension + 1) {
+  if constexpr (N > kMaxPlainDimension + 1) {
     return false;
   } else {
     if constexpr (growing::compiledForMoving(N)) {
@@ -44,7 +49,7 @@ bool dispatch(const Scene& scene, const Path& path, Derivative& result) {
         return true;
       }
     }
-    if constexpr (N <= kMaxDerivativeDimension) {
+    if constexpr (N <= kMaxPlainDimension) {
       if (!path.moving && result.dimension == N) {
         store<N>(growing::LogTarget<N>::evaluate(scene, path), result);
         return true;
@@ -64,9 +69,31 @@ bool Derivative::finite() const {
   return sum <= std::numeric_limits<float>::max();
 }
 
-bool differentiate(const Scene& scene, const Path& path, Derivative& result) {
+bool differentiatePlainly(const Scene& scene, const Path& path, Derivative& result) {
   result.dimension = path.dimension();
   return dispatch<2>(scene, path, result);
+}
+
+void differentiateLocally(const Scene& scene, const Path& path, Derivative& result) {
+  static thread_local ad::Composition<float> composition;
+  result.dimension = path.dimension();
+  float u[kMaxDerivativeDimension];
+  std::copy_n(path.sample.u.begin(), path.technique.dimension(), u);
+  if (path.moving) u[path.technique.dimension()] = path.sample.time;
+  const int target = path.moving
+                         ? LocalForm<float, true>(scene, path, composition).logTarget(u)
+                         : LocalForm<float, false>(scene, path, composition).logTarget(u);
+  if (target < 0) {
+    // A factor has underflowed: no derivatives.
+    result.logTarget = -std::numeric_limits<float>::infinity();
+    return;
+  }
+  result.logTarget = composition.value(target);
+  composition.differentiate(target, result.gradient, result.hessian);
+}
+
+void differentiate(const Scene& scene, const Path& path, Derivative& result) {
+  differentiateLocally(scene, path, result);
 }
 
 }  // namespace h2mc

@@ -1,11 +1,11 @@
 // Gradient and Hessian of the log target with respect to a path's primary coordinates, by evaluating
-// the contribution with ad::Dual2: the plain whole-path form.
+// the contribution with ad::Dual2. Two forms of it:
 //
-// A subpath is evaluated with as many coordinates as have been drawn so far: its k-th vertex costs
-// derivatives of 2k coordinates, not of all. Only the connection sees all of them.
+// The plain one evaluates the whole path. A subpath has as many coordinates as have been drawn so far:
+// its k-th vertex costs derivatives of 2k coordinates, and only the connection sees all of them.
 //
-// The vertex-local form (differentiate each vertex's own step, then compose) is to stand beside
-// this one, as another way to fill a Derivative; this one stays as its oracle.
+// The local one differentiates each vertex's own step and composes the steps (local_form.h): the cost
+// of a vertex does not grow with the path.
 #pragma once
 
 #include "render/path/path.h"
@@ -13,12 +13,14 @@
 namespace h2mc {
 
 // The longest paths of the plain form, in edges. Builds that are there to find mistakes, such as those
-// under the sanitizers, make do with fewer: each takes a minute to compile.
+// under the sanitizers, make do with fewer: each takes its time to compile.
 #ifndef H2MC_DERIVATIVE_EDGES
-#define H2MC_DERIVATIVE_EDGES 8
+#define H2MC_DERIVATIVE_EDGES 4
 #endif
 // Its coordinates: two an edge, and time.
-inline constexpr int kMaxDerivativeDimension = 2 * H2MC_DERIVATIVE_EDGES + 1;
+inline constexpr int kMaxPlainDimension = 2 * H2MC_DERIVATIVE_EDGES + 1;
+// Coordinates of the longest path there is.
+inline constexpr int kMaxDerivativeDimension = 2 * kMaxPathLength + 1;
 
 struct Derivative {
   int dimension = 0;
@@ -30,9 +32,14 @@ struct Derivative {
   bool finite() const;
 };
 
-// d log(path.target) at path.sample, with the topology (triangles, lobes, light, visibility) frozen.
-// result.dimension is path.dimension(): where the path depends on time, that is the last coordinate.
-// False when path.dimension() > kMaxDerivativeDimension. Precondition: path.target > 0.
-bool differentiate(const Scene& scene, const Path& path, Derivative& result);
+// d log(path.target) at path.sample, with the topology (triangles, lobes, light, visibility) frozen, in
+// the form that is faster. result.dimension is path.dimension(): where the path depends on time, that is
+// the last coordinate. Precondition: path.target > 0.
+void differentiate(const Scene& scene, const Path& path, Derivative& result);
+
+// The same by either form. The plain one is there for path.dimension() <= kMaxPlainDimension, and false
+// elsewhere.
+bool differentiatePlainly(const Scene& scene, const Path& path, Derivative& result);
+void differentiateLocally(const Scene& scene, const Path& path, Derivative& result);
 
 }  // namespace h2mc

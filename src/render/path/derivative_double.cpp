@@ -1,6 +1,9 @@
 #include <algorithm>
 
+#include <limits>
+
 #include "ad/dual2.h"
+#include "render/path/local_form.h"
 #include "render/path/replay.h"
 #include "render/path/replay_double.h"
 
@@ -38,6 +41,23 @@ ad::DerivativeValues differentiateInDouble(const Scene& scene, const Path& path,
       }
     }
   }
+  return result;
+}
+
+ad::DerivativeValues differentiateLocallyInDouble(const Scene& scene, const Path& path,
+                                                  const double* u) {
+  ad::Composition<double> composition;
+  const int target = path.moving
+                         ? LocalForm<double, true>(scene, path, composition).logTarget(u)
+                         : LocalForm<double, false>(scene, path, composition).logTarget(u);
+  const auto n = static_cast<std::size_t>(path.dimension());
+  ad::DerivativeValues result;
+  result.gradient.resize(n);
+  result.hessian.resize(n * (n + 1) / 2);
+  result.value = -std::numeric_limits<double>::infinity();
+  if (target < 0) return result;
+  result.value = composition.value(target);
+  composition.differentiate(target, result.gradient.data(), result.hessian.data());
   return result;
 }
 

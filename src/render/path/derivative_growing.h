@@ -143,7 +143,7 @@ Dual<N> LogTarget<N>::evaluate(const Scene& scene, const Path& path) {
 
 // For which N there is a MovingLogTarget: every other even number, and the largest.
 constexpr bool compiledForMoving(int n) {
-  return n > 2 && (n % 4 == 2 || n == kMaxDerivativeDimension + 1);
+  return n > 2 && (n % 4 == 2 || n == kMaxPlainDimension + 1);
 }
 
 // The log target of a path that depends on time, by N coordinates: its own, then time, then as many as

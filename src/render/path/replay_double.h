@@ -18,4 +18,8 @@ double replayInDouble(const Scene& scene, const Path& path, const double* u);
 // coordinates are active at a time, in pairs, so that one scalar type does for all path lengths.
 ad::DerivativeValues differentiateInDouble(const Scene& scene, const Path& path, const double* u);
 
+// The same in the vertex-local form.
+ad::DerivativeValues differentiateLocallyInDouble(const Scene& scene, const Path& path,
+                                                  const double* u);
+
 }  // namespace h2mc

@@ -31,14 +31,29 @@ struct PathRay {
   bool fromInfinity = false;        // left an infinite light: its distance is no density's business
 };
 
-// Where a subpath has arrived at a surface.
+// Where a subpath has arrived at a surface: what scattering there sees of it.
 template <class T>
-struct PathVertex {
+struct Arrival {
   SurfacePoint<T> point;
   Vec3<T> wi;  // local direction to the previous vertex
   T cosIn;     // |cos| of the same with the geometric normal
+};
+// The same with what the subpath brings along.
+template <class T>
+struct PathVertex : Arrival<T> {
   Rgb<T> throughput;
   T vcm, vc;
+};
+
+// What a scattering does to the subpath, whatever the subpath brings along: onwards() applies it.
+template <class T>
+struct Scattering {
+  Vec3<T> direction;  // unit, world space
+  Rgb<T> factor;      // of the throughput; zero where nothing goes that way
+  T vcm;              // of the ray; 0 for delta lobes
+  T vc;               // the ray's is this * root((vertex.vc * reverse)^2 + vertex.vcm^2),
+  T reverse;          // for delta lobes this * vertex.vc
+  bool delta = false;
 };
 
 // sqrt(a^2 + b^2) where both are >= 0. No derivative of the root at 0 is ever needed: zeros are
@@ -101,15 +116,16 @@ PathRay<T> startLight(const Scene& scene, int light, PrimitiveId primitive, cons
       scene.lights[static_cast<std::size_t>(light)]);
 }
 
+template <class T>
+Arrival<T> arrivalAt(const SurfacePoint<T>& point, const Vec3<T>& direction) {
+  const Vec3<T> back = -direction;
+  return {point, point.shading.toLocal(back), abs(dot(point.ng, back))};
+}
+
 // Arrives at a point that the ray is known to hit.
 template <class T>
 PathVertex<T> arriveAtPoint(const PathRay<T>& ray, const SurfacePoint<T>& point) {
-  PathVertex<T> vertex;
-  vertex.point = point;
-  const Vec3<T> back = -ray.direction;
-  vertex.wi = vertex.point.shading.toLocal(back);
-  vertex.cosIn = abs(dot(vertex.point.ng, back));
-  vertex.throughput = ray.throughput;
+  PathVertex<T> vertex{arrivalAt(point, ray.direction), ray.throughput, ray.vcm, ray.vc};
   const T inverse = T(1) / vertex.cosIn;
   vertex.vcm = ray.vcm * inverse;
   if (!ray.fromInfinity) vertex.vcm = vertex.vcm * distance2(vertex.point.p, ray.origin);
@@ -123,79 +139,104 @@ PathVertex<T> arriveAt(const Scene& scene, const PathRay<T>& ray, PrimitiveId id
   return arriveAtPoint(ray, intersectPrimitive(scene.shapes, id, ray.origin, ray.direction, time));
 }
 
-// Continues from a vertex in the local direction `wo`, drawn with the density that the material has
-// for it, all of its lobes but delta ones together. A throughput of zero means that nothing goes
-// that way.
+// Scattering in the local direction `wo`, drawn with the density that the material has for it, all of
+// its lobes but delta ones together.
 template <class T>
-PathRay<T> scatterTowards(const Scene& scene, const PathVertex<T>& vertex, PrimitiveId id,
-                          const Vec3<T>& wo, Side side) {
+Scattering<T> scatteringTowards(const Scene& scene, const Arrival<T>& vertex, PrimitiveId id,
+                                const Vec3<T>& wo, Side side) {
   const Material& material = materialAt(scene, id);
   const Vec2<T>& uv = vertex.point.uv;
-  PathRay<T> ray;
-  ray.origin = vertex.point.p;
-  ray.originNormal = value3(vertex.point.ng);
-  ray.direction = vertex.point.shading.toWorld(wo);
-  const T cosOut = abs(dot(vertex.point.ng, ray.direction));
-  T pdf, reverse, factor;
+  Scattering<T> s;
+  s.direction = vertex.point.shading.toWorld(wo);
+  const T cosOut = abs(dot(vertex.point.ng, s.direction));
+  T pdf, factor;
   Rgb<T> scattered;
   if (side == Side::kCamera) {
     const BsdfValue<T> e = evaluateMaterial<T>(scene.bsdfs, material, uv, vertex.wi, wo);
     pdf = e.pdf;
-    reverse = e.pdfReverse;
+    s.reverse = e.pdfReverse;
     factor = T(1) / pdf;
     scattered = e.value;
   } else {
     const BsdfValue<T> e = evaluateMaterial<T>(scene.bsdfs, material, uv, wo, vertex.wi);
     pdf = e.pdfReverse;
-    reverse = e.pdf;
+    s.reverse = e.pdf;
     factor = cosOut / (vertex.cosIn * pdf);
     scattered = e.value;
   }
   if (!(value(pdf) > 0)) {
-    ray.throughput = Rgb<T>(T(0));
-    ray.vcm = ray.vc = T(0);
-    return ray;
+    s.factor = Rgb<T>(T(0));
+    s.vcm = s.vc = s.reverse = T(0);
+    return s;
   }
-  const T inverse = T(1) / pdf;
-  ray.throughput = vertex.throughput * scattered * factor;
-  ray.vcm = inverse;
-  ray.vc = cosOut * inverse * rootOfSquares(vertex.vc * reverse, vertex.vcm);
-  return ray;
+  s.factor = scattered * factor;
+  s.vcm = T(1) / pdf;
+  s.vc = cosOut * s.vcm;
+  return s;
 }
 
-// Continues from a vertex through the delta lobe `lobe`.
+// Scattering through the delta lobe `lobe`.
 template <class T>
-PathRay<T> scatterDelta(const Scene& scene, const PathVertex<T>& vertex, PrimitiveId id,
-                        LobeId lobe, Side side) {
-  PathRay<T> ray;
-  ray.origin = vertex.point.p;
-  ray.originNormal = value3(vertex.point.ng);
+Scattering<T> scatteringDelta(const Scene& scene, const Arrival<T>& vertex, PrimitiveId id,
+                              LobeId lobe, Side side) {
   const DeltaSample<T> sample =
       sampleDelta<T>(scene.bsdfs, materialAt(scene, id), vertex.point.uv, vertex.wi, lobe);
-  ray.direction = vertex.point.shading.toWorld(sample.wo);
-  const T cosOut = abs(dot(vertex.point.ng, ray.direction));
+  Scattering<T> s;
+  s.delta = true;
+  s.direction = vertex.point.shading.toWorld(sample.wo);
+  const T cosOut = abs(dot(vertex.point.ng, s.direction));
   const T inverse = T(1) / sample.probability;
   if (side == Side::kCamera) {
-    ray.throughput = vertex.throughput * sample.radiance * inverse;
+    s.factor = sample.radiance * inverse;
   } else {
     // Shading normals make scattering non-symmetric [Veach 1997, section 5.3].
     const T correction = abs(vertex.wi.z) * cosOut / (vertex.cosIn * abs(sample.wo.z));
-    ray.throughput = vertex.throughput * sample.importance * (inverse * correction);
+    s.factor = sample.importance * (inverse * correction);
   }
-  ray.vcm = T(0);
-  ray.vc = vertex.vc * cosOut;
+  s.vcm = s.reverse = T(0);
+  s.vc = cosOut;
+  return s;
+}
+
+// Scattering through `lobe` in the direction that (u0, u1) draw.
+template <class T>
+Scattering<T> scatteringFrom(const Scene& scene, const Arrival<T>& vertex, PrimitiveId id,
+                             LobeId lobe, const T& u0, const T& u1, Side side) {
+  const Material& material = materialAt(scene, id);
+  if (isDelta(scene.bsdfs, material, lobe)) return scatteringDelta(scene, vertex, id, lobe, side);
+  const Vec3<T> wo =
+      sampleMaterial<T>(scene.bsdfs, material, vertex.point.uv, vertex.wi, lobe, u0, u1);
+  return scatteringTowards(scene, vertex, id, wo, side);
+}
+
+// Continues from a vertex. A throughput of zero means that nothing goes that way.
+template <class T>
+PathRay<T> onwards(const PathVertex<T>& vertex, const Scattering<T>& s) {
+  PathRay<T> ray;
+  ray.origin = vertex.point.p;
+  ray.originNormal = value3(vertex.point.ng);
+  ray.direction = s.direction;
+  ray.throughput = vertex.throughput * s.factor;
+  ray.vcm = s.vcm;
+  ray.vc = s.vc * (s.delta ? vertex.vc : rootOfSquares(T(vertex.vc * s.reverse), vertex.vcm));
   return ray;
 }
 
-// Continues from a vertex through `lobe` in the direction that (u0, u1) draw.
+// The three steps with what the subpath brings along.
+template <class T>
+PathRay<T> scatterTowards(const Scene& scene, const PathVertex<T>& vertex, PrimitiveId id,
+                          const Vec3<T>& wo, Side side) {
+  return onwards(vertex, scatteringTowards<T>(scene, vertex, id, wo, side));
+}
+template <class T>
+PathRay<T> scatterDelta(const Scene& scene, const PathVertex<T>& vertex, PrimitiveId id,
+                        LobeId lobe, Side side) {
+  return onwards(vertex, scatteringDelta<T>(scene, vertex, id, lobe, side));
+}
 template <class T>
 PathRay<T> scatterFrom(const Scene& scene, const PathVertex<T>& vertex, PrimitiveId id, LobeId lobe,
                        const T& u0, const T& u1, Side side) {
-  const Material& material = materialAt(scene, id);
-  if (isDelta(scene.bsdfs, material, lobe)) return scatterDelta(scene, vertex, id, lobe, side);
-  const Vec3<T> wo =
-      sampleMaterial<T>(scene.bsdfs, material, vertex.point.uv, vertex.wi, lobe, u0, u1);
-  return scatterTowards(scene, vertex, id, wo, side);
+  return onwards(vertex, scatteringFrom<T>(scene, vertex, id, lobe, u0, u1, side));
 }
 
 }  // namespace h2mc

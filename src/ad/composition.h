@@ -1,0 +1,337 @@
+// Gradient and Hessian of a function that is composed of functions of few variables, where a dual of
+// all coordinates would be wasteful: a recurrence x_(k+1) = f_k(x_k, u_k) is differentiated step by
+// step, each by Dual2 with respect to its own x_k and u_k.
+//
+// Forward, every variable gets its gradient with respect to all coordinates. Backward, it gets the
+// result's derivative with respect to it (its adjoint), and
+//     H = sum over steps of S^T (sum over the step's outputs o of adjoint_o Hessian_o) S
+// where the rows of S are the gradients of the step's inputs [Griewank and Walther 2008, chapter 5].
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <initializer_list>
+#include <new>
+#include <type_traits>
+#include <vector>
+
+#include "ad/dual2.h"
+
+namespace h2mc::ad {
+
+/// Builds a function of `coordinates()` coordinates and differentiates it. Keeps its memory from one
+/// function to the next, so that after the first few nothing is allocated.
+template <class T>
+class Composition {
+ public:
+  /// A scalar that the composition knows: coordinates are 0 .. coordinates() - 1.
+  using Variable = int;
+  static constexpr Variable none() { return -1; }
+
+  /// Starts anew: a function of `coordinates` >= 1 coordinates, at `values`.
+  void begin(const T* values, int coordinates);
+  int coordinates() const { return coordinates_; }
+  T value(Variable v) const { return values_[at(v)]; }
+
+  Variable constant(T value) { return add(value, {0, 0}); }
+
+  /// Where to put the outputs, at most `most` of them, of a function of M variables; their duals'
+  /// coordinates stand for those variables. Valid until the next call of anything but value().
+  template <int M>
+  Dual2<T, M>* outputs(int most);
+  /// Takes the first `count` of them, as functions of `inputs`. They become as many variables from the
+  /// returned one on.
+  template <int M>
+  Variable apply(const Variable (&inputs)[M], int count);
+
+  struct Term {
+    Variable variable;
+    T weight;
+  };
+  Variable linear(std::initializer_list<Term> terms);
+  /// a + b, either of which may be none().
+  Variable sum(Variable a, Variable b) {
+    if (a == none()) return b;
+    if (b == none()) return a;
+    return linear({{a, T(1)}, {b, T(1)}});
+  }
+  /// log(sum over i of exp(c z_i)) / c without overflow; count >= 1, c > 0.
+  Variable logSumExp(const Variable* z, int count, T c);
+
+  /// Writes the gradient (coordinates() numbers) and the Hessian's lower triangle, row by row.
+  void differentiate(Variable result, T* gradient, T* hessian);
+
+ private:
+  static constexpr int kLanes = 64 / int(sizeof(T));
+  using Lane = typename detail::VectorOf<T, kLanes>::type;
+  using One = std::integral_constant<int, 1>;
+
+  // The coordinates that a variable may depend on.
+  struct Span {
+    int begin, end;
+    void include(const Span& other) {
+      if (other.end <= other.begin) return;
+      begin = std::min(begin, other.begin);
+      end = std::max(end, other.end);
+    }
+    // An empty one, to include others.
+    static Span nothing() { return {1 << 30, 0}; }
+  };
+  struct Node {
+    enum Kind { kStep, kLinear, kLogSumExp } kind;
+    Variable first;          // of those that it makes
+    int count;               // how many
+    int inputs, inputCount;  // in terms_
+    T curvature;             // of kLogSumExp: c
+    std::size_t duals;       // of kStep: in kept_
+    void (Composition::*backward)(const Node&);
+  };
+  struct alignas(64) Block {
+    std::byte bytes[64];
+  };
+
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  static constexpr std::size_t divideUp(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
+  Lane* row(Variable v) { return rows_.data() + at(v) * at(stride_); }
+  Span spanOf(Variable v) const { return spans_[at(v)]; }
+
+  Variable add(T value, const Span& span) {
+    const Variable v = reserve(1, span);
+    std::fill_n(row(v), stride_, Lane{});
+    values_[at(v)] = value;
+    return v;
+  }
+  // Variables whose values and rows are yet to be set.
+  Variable reserve(int count, const Span& span) {
+    const Variable first = count_;
+    count_ += count;
+    if (at(count_) > values_.size()) {
+      values_.resize(2 * at(count_));
+      adjoints_.resize(2 * at(count_));
+      spans_.resize(2 * at(count_));
+    }
+    if (rows_.size() < at(count_) * at(stride_)) rows_.resize(2 * at(count_) * at(stride_));
+    std::fill_n(spans_.begin() + first, count, span);
+    return first;
+  }
+
+  // Calls f with the number of vectors in a row: a constant where it is one, so that loops vanish.
+  template <class F>
+  void withStride(F&& f) {
+    if (stride_ == 1)
+      f(One{});
+    else
+      f(stride_);
+  }
+
+  Variable finishLinear(Node& node);
+  void linearBackward(const Node& node);
+  template <int M>
+  void stepBackward(const Node& node);
+  template <int M>
+  Dual2<T, M>* dualsAt(std::size_t begin) {
+    return std::launder(reinterpret_cast<Dual2<T, M>*>(kept_.data() + begin));
+  }
+
+  int coordinates_ = 0, stride_ = 0, count_ = 0;
+  std::vector<T> values_, adjoints_;
+  std::vector<Span> spans_;
+  std::vector<Lane> rows_, hessian_, scratch_;
+  std::vector<Node> nodes_;
+  std::vector<Term> terms_;
+  std::vector<Block> kept_;
+  std::size_t used_ = 0;
+};
+
+template <class T>
+void Composition<T>::begin(const T* values, int coordinates) {
+  coordinates_ = coordinates;
+  stride_ = (coordinates + kLanes - 1) / kLanes;
+  count_ = 0;
+  used_ = 0;
+  nodes_.clear();
+  terms_.clear();
+  for (int i = 0; i < coordinates; ++i) {
+    const Variable v = add(values[i], {i, i + 1});
+    row(v)[i / kLanes][i % kLanes] = T(1);
+  }
+}
+
+template <class T>
+template <int M>
+Dual2<T, M>* Composition<T>::outputs(int most) {
+  const std::size_t blocks = divideUp(sizeof(Dual2<T, M>) * at(most), sizeof(Block));
+  if (kept_.size() < used_ + blocks) kept_.resize(2 * (used_ + blocks));
+  return dualsAt<M>(used_);
+}
+
+template <class T>
+template <int M>
+auto Composition<T>::apply(const Variable (&inputs)[M], int count) -> Variable {
+  Node node{Node::kStep, count_, count, static_cast<int>(terms_.size()),
+            M,           T(0),   used_, &Composition::template stepBackward<M>};
+  const Dual2<T, M>* const duals = dualsAt<M>(used_);
+  used_ += divideUp(sizeof(Dual2<T, M>) * at(count), sizeof(Block));
+  Span span = Span::nothing();
+  for (const Variable input : inputs) {
+    terms_.push_back({input, T(1)});
+    span.include(spanOf(input));
+  }
+  reserve(count, span);
+  for (int o = 0; o < count; ++o) values_[at(node.first + o)] = duals[o].v;
+  withStride([&](auto stride) {
+    for (int k = 0; k < stride; ++k) {
+      Lane in[M];
+      for (int i = 0; i < M; ++i) in[i] = row(inputs[i])[k];
+      for (int o = 0; o < count; ++o) {
+        Lane out = duals[o].gradient(0) * in[0];
+        for (int i = 1; i < M; ++i) out += duals[o].gradient(i) * in[i];
+        row(node.first + o)[k] = out;
+      }
+    }
+  });
+  nodes_.push_back(node);
+  return node.first;
+}
+
+template <class T>
+auto Composition<T>::linear(std::initializer_list<Term> terms) -> Variable {
+  Node node{Node::kLinear,
+            count_,
+            1,
+            static_cast<int>(terms_.size()),
+            static_cast<int>(terms.size()),
+            T(0),
+            0,
+            nullptr};
+  terms_.insert(terms_.end(), terms.begin(), terms.end());
+  return finishLinear(node);
+}
+
+template <class T>
+auto Composition<T>::logSumExp(const Variable* z, int count, T c) -> Variable {
+  if (count == 1) return z[0];
+  Node node{Node::kLogSumExp, count_, 1, static_cast<int>(terms_.size()), count, c, 0, nullptr};
+  T largest = value(z[0]), total = 0;
+  for (int i = 1; i < count; ++i) largest = std::max(largest, value(z[i]));
+  for (int i = 0; i < count; ++i) {
+    terms_.push_back({z[i], std::exp(c * (value(z[i]) - largest))});
+    total += terms_.back().weight;
+  }
+  for (int i = 0; i < count; ++i) terms_[at(node.inputs + i)].weight /= total;
+  const Variable result = finishLinear(node);
+  values_[at(result)] = largest + std::log(total) / c;
+  return result;
+}
+
+template <class T>
+auto Composition<T>::finishLinear(Node& node) -> Variable {
+  const Term* const terms = terms_.data() + node.inputs;
+  Span span = Span::nothing();
+  T sum = 0;
+  for (int i = 0; i < node.inputCount; ++i) {
+    sum += terms[i].weight * value(terms[i].variable);
+    span.include(spanOf(terms[i].variable));
+  }
+  const Variable result = reserve(1, span);
+  values_[at(result)] = sum;
+  withStride([&](auto stride) {
+    for (int k = 0; k < stride; ++k) {
+      Lane out = terms[0].weight * row(terms[0].variable)[k];
+      for (int i = 1; i < node.inputCount; ++i) out += terms[i].weight * row(terms[i].variable)[k];
+      row(result)[k] = out;
+    }
+  });
+  nodes_.push_back(node);
+  return result;
+}
+
+template <class T>
+void Composition<T>::differentiate(Variable result, T* gradient, T* hessian) {
+  std::memcpy(gradient, row(result), sizeof(T) * at(coordinates_));
+  hessian_.assign(at(coordinates_ * stride_), Lane{});
+  std::fill_n(adjoints_.begin(), count_, T(0));
+  adjoints_[at(result)] = T(1);
+  for (std::size_t n = nodes_.size(); n-- > 0;) {
+    const Node& node = nodes_[n];
+    if (node.kind == Node::kStep)
+      (this->*node.backward)(node);
+    else
+      linearBackward(node);
+  }
+  for (int i = 0; i < coordinates_; hessian += ++i)
+    std::memcpy(hessian, hessian_.data() + i * stride_, sizeof(T) * at(i + 1));
+}
+
+// hessian += S^T H S, H = the outputs' Hessians, each times its adjoint, S = the inputs' rows.
+template <class T>
+template <int M>
+void Composition<T>::stepBackward(const Node& node) {
+  using Dual = Dual2<T, M>;
+  const Dual* const duals = dualsAt<M>(node.duals);
+  Dual total(T(0));
+  bool any = false;
+  for (int o = 0; o < node.count; ++o) {
+    const T adjoint = adjoints_[at(node.first + o)];
+    if (adjoint == T(0)) continue;
+    any = true;
+    total += duals[o] * adjoint;
+  }
+  if (!any) return;
+  const Term* const inputs = terms_.data() + node.inputs;
+  const Lane* rows[M];
+  for (int i = 0; i < M; ++i) {
+    adjoints_[at(inputs[i].variable)] += total.gradient(i);
+    rows[i] = row(inputs[i].variable);
+  }
+  const Span span = spanOf(node.first);
+  withStride([&](auto stride) {
+    for (int k = span.begin / kLanes; k < stride; ++k) {
+      Lane weighted[M];
+      for (int i = 0; i < M; ++i) {
+        weighted[i] = total.hessian(i, 0) * rows[0][k];
+        for (int j = 1; j < M; ++j) weighted[i] += total.hessian(i, j) * rows[j][k];
+      }
+      // The lower triangle is enough: rows from this vector's first coordinate on.
+      for (int a = std::max(span.begin, k * kLanes); a < span.end; ++a) {
+        Lane& h = hessian_[at(a * stride + k)];
+        Lane sum = h;
+        for (int i = 0; i < M; ++i) sum += rows[i][a / kLanes][a % kLanes] * weighted[i];
+        h = sum;
+      }
+    }
+  });
+}
+
+// A weighted sum, and what makes log-sum-exp curved: hessian += scale d d^T for each term, with d its
+// row's difference from the result's.
+template <class T>
+void Composition<T>::linearBackward(const Node& node) {
+  const T adjoint = adjoints_[at(node.first)];
+  if (adjoint == T(0)) return;
+  const Term* const terms = terms_.data() + node.inputs;
+  for (int i = 0; i < node.inputCount; ++i)
+    adjoints_[at(terms[i].variable)] += adjoint * terms[i].weight;
+  if (node.kind != Node::kLogSumExp) return;
+  const Lane* const mean = row(node.first);
+  const Span span = spanOf(node.first);
+  scratch_.resize(at(stride_));
+  for (int i = 0; i < node.inputCount; ++i) {
+    const T scale = adjoint * node.curvature * terms[i].weight;
+    if (scale == T(0)) continue;
+    const Lane* const in = row(terms[i].variable);
+    withStride([&](auto stride) {
+      Lane* const d = scratch_.data();
+      for (int k = 0; k < stride; ++k) d[k] = in[k] - mean[k];
+      for (int a = span.begin; a < span.end; ++a) {
+        const T factor = scale * d[a / kLanes][a % kLanes];
+        Lane* const h = hessian_.data() + a * stride;
+        for (int k = 0; k <= a / kLanes; ++k) h[k] += factor * d[k];
+      }
+    });
+  }
+}
+
+}  // namespace h2mc::ad

@@ -1,0 +1,112 @@
+// The vertex-local derivative of the log target: each step of a path is differentiated with respect to
+// the few numbers that it depends on, and ad::Composition puts the steps together. The cost of a vertex
+// does not grow with the path.
+//
+// The state of a subpath at a vertex is four numbers: where on its surface the vertex lies and from
+// which direction it is reached; a step has two primary coordinates more, and time where the path
+// depends on it. Whatever else a subpath brings along (throughput, vcm, vc) only ever gets multiplied
+// or added as a root of squares: its logarithms are sums of terms that each see one step, and
+// log-sum-exp of those.
+#pragma once
+
+#include "ad/composition.h"
+#include "render/core/direction_chart.h"
+#include "render/path/connect.h"
+#include "render/path/path.h"
+
+namespace h2mc {
+
+// S: float or double. kMoving: for paths that depend on time.
+template <class S, bool kMoving>
+class LocalForm {
+ public:
+  using Variable = int;
+  static constexpr Variable kNone = ad::Composition<S>::none();
+
+  LocalForm(const Scene& scene, const Path& path, ad::Composition<S>& composition)
+      : scene_(scene), path_(path), composition_(composition) {}
+
+  // The path's log target as a variable of the composition, which is begun anew with the path's
+  // dimension() coordinates at `u`; kNone where nothing is there. Precondition: path.moving is kMoving.
+  Variable logTarget(const S* u);
+
+ private:
+  static constexpr int kTime = kMoving ? 1 : 0;
+
+  // Positions among a step's outputs, kNone for what is not there.
+  struct Leaving {
+    int at[2], direction[2], vcm = kNone;
+  };
+  struct Factors {
+    int vcm = kNone, vc = kNone;
+  };
+
+  // A subpath that has arrived at a vertex.
+  struct Subpath {
+    Variable at[2], direction[2];
+    DirectionChart<S> chart{Vec3<S>(0, 0, 1)};  // of `direction`
+    // Logarithms; kNone where the throughput is 1, or where vcm or vc is zero: of the ray, vcm times
+    // the squared length. Arrival divides both by cosIn.
+    Variable throughput[3] = {kNone, kNone, kNone}, vcm = kNone, vc = kNone;
+  };
+
+  // A function of M variables (and of time) under evaluation.
+  template <int M>
+  class Step;
+
+  template <int M>
+  Leaving leave(Step<M>& step, const Vec3<typename Step<M>::D>& origin,
+                const Vec3<typename Step<M>::D>& direction, typename Step<M>::D vcm,
+                bool fromInfinity, const TracedVertex& next, DirectionChart<S>& chart);
+  template <int M>
+  void arrive(const Step<M>& step, const Leaving& leaving, Subpath& subpath);
+  template <int M>
+  Arrival<typename Step<M>::D> arrival(const Step<M>& step, int first, const Subpath& subpath,
+                                       const TracedVertex& vertex) const;
+  template <int M>
+  void logFactor(Step<M>& step, const Rgb<typename Step<M>::D>& factor, int (&outputs)[3]);
+  template <int M>
+  void multiply(const Step<M>& step, const int (&outputs)[3], Variable (&logs)[3]);
+  // The MIS weight's terms from a subpath that the last step scales by `factors`.
+  template <int M>
+  Factors logFactors(Step<M>& step, const typename Link<typename Step<M>::D>::Factors& factors,
+                     const typename Step<M>::D& cosIn);
+  template <int M>
+  void addTerms(const Step<M>& step, const Factors& factors, const Subpath& subpath);
+  template <int M>
+  void addTerm(const Step<M>& step, int output, Variable log);
+  // log root((vc reverse)^2 + vcm^2); kNone if that is zero.
+  Variable logRoot(const Subpath& subpath, Variable reverse);
+
+  void startCamera();
+  void startLight();
+  void scatter(Side side, int index);
+  void seeEnvironment();  // the camera's own ray escapes
+  void scatterToEnvironment();
+  void hitLight();
+  void connectToLight();
+  void connectVertices();
+  void connectToCamera();
+  Variable finish();
+
+  const TracedVertex& cameraVertex(int i) const {
+    return path_.camera[static_cast<std::size_t>(i)];
+  }
+  const TracedVertex& lightVertex(int i) const { return path_.light[static_cast<std::size_t>(i)]; }
+
+  const Scene& scene_;
+  const Path& path_;
+  ad::Composition<S>& composition_;
+  Subpath camera_, light_;
+  bool dark_[3] = {false, false, false};       // channels that nothing comes through
+  Variable value_[3] = {kNone, kNone, kNone};  // log of what the last step adds
+  Variable terms_[6];                          // logs of the terms of the MIS weight
+  int termCount_ = 0;
+};
+
+extern template class LocalForm<float, false>;
+extern template class LocalForm<float, true>;
+extern template class LocalForm<double, false>;
+extern template class LocalForm<double, true>;
+
+}  // namespace h2mc

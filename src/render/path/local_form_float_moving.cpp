@@ -1,0 +1,5 @@
+#include "render/path/local_form_steps.h"
+
+namespace h2mc {
+template class LocalForm<float, true>;
+}

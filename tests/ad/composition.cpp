@@ -1,0 +1,134 @@
+// ad::Composition on recurrences whose derivatives Dual2 gives as a whole.
+#include "ad/composition.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <random>
+
+#include "ad/functions.h"
+
+namespace h2mc::ad {
+namespace {
+
+// x' = f(x, u): two state variables, one control, nothing linear about it.
+template <class T>
+std::array<T, 2> advance(const T& x, const T& y, const T& u) {
+  return {sin(x * u) + y * y * 0.3, exp(y * 0.2 - u * u) + x * u};
+}
+template <class T>
+T reward(const T& x, const T& y, const T& u) {
+  return log(x * x + y * y + u * u + 1.5);
+}
+
+constexpr int kSteps = 9;
+
+// log(e^(sum of rewards) + 2 e^(3 y_n)) - 2 log-sum-exp_2(x_n, y_n, 0), in one piece.
+template <class T>
+T whole(const T* u) {
+  T x(0.3), y(-0.2), sum(0.0);
+  for (int k = 0; k < kSteps; ++k) {
+    sum = sum + reward(x, y, u[k]);
+    const auto next = advance(x, y, u[k]);
+    x = next[0];
+    y = next[1];
+  }
+  return log(exp(sum) + exp(y * 3.0) * 2.0) - log(exp(x * 2.0) + exp(y * 2.0) + 1.0);
+}
+
+// The same step by step, with `extra` coordinates before and after that nothing depends on.
+template <class T>
+void composed(Composition<T>& c, const std::vector<T>& u, int extra, T& value,
+              std::vector<T>& gradient, std::vector<T>& hessian) {
+  const int n = static_cast<int>(u.size());
+  c.begin(u.data(), n);
+  int x = c.constant(T(0.3)), y = c.constant(T(-0.2)), sum = c.none();
+  for (int k = 0; k < kSteps; ++k) {
+    using D = Dual2<T, 3>;
+    const int inputs[3] = {x, y, k + extra};
+    D d[3];
+    for (int i = 0; i < 3; ++i) d[i] = D::variable(c.value(inputs[i]), i);
+    const auto next = advance(d[0], d[1], d[2]);
+    D* const outputs = c.template outputs<3>(3);
+    outputs[0] = next[0];
+    outputs[1] = next[1];
+    outputs[2] = reward(d[0], d[1], d[2]);
+    const int first = c.apply(inputs, 3);
+    x = first;
+    y = first + 1;
+    sum = c.sum(sum, first + 2);
+  }
+  const int brighter = c.linear({{y, T(3)}, {c.constant(T(std::log(2.0))), T(1)}});
+  const int a[2] = {sum, brighter}, b[3] = {x, y, c.constant(T(0))};
+  const int l = c.linear({{c.logSumExp(a, 2, T(1)), T(1)}, {c.logSumExp(b, 3, T(2)), T(-2)}});
+  value = c.value(l);
+  gradient.resize(u.size());
+  hessian.resize(u.size() * (u.size() + 1) / 2);
+  c.differentiate(l, gradient.data(), hessian.data());
+}
+
+template <class T>
+class AdComposition : public ::testing::Test {};
+using Scalars = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(AdComposition, Scalars);
+
+TYPED_TEST(AdComposition, Recurrence) {
+  using T = TypeParam;
+  const T tolerance = std::is_same_v<T, float> ? T(2e-3) : T(1e-11);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<T> uniform(T(-0.9), T(0.9));
+  Composition<T> composition;
+  // Also more coordinates than a register has lanes, and than a few of them.
+  for (const int extra : {0, 4, 40, 70}) {
+    std::vector<T> u(static_cast<std::size_t>(kSteps + 2 * extra));
+    for (T& x : u) x = uniform(random);
+    T value;
+    std::vector<T> gradient, hessian;
+    composed(composition, u, extra, value, gradient, hessian);
+
+    using D = Dual2<double, kSteps>;
+    D active[kSteps];
+    for (int k = 0; k < kSteps; ++k)
+      active[k] = D::variable(double(u[static_cast<std::size_t>(k + extra)]), k);
+    const D expected = whole(active);
+    EXPECT_NEAR(value, expected.v, tolerance * (1 + std::abs(expected.v)));
+    const auto lane = [&](int i) { return i - extra; };
+    const auto active0 = [&](int i) { return lane(i) >= 0 && lane(i) < kSteps; };
+    std::size_t k = 0;
+    for (int i = 0; i < kSteps + 2 * extra; ++i) {
+      const double g = active0(i) ? expected.gradient(lane(i)) : 0;
+      EXPECT_NEAR(gradient[static_cast<std::size_t>(i)], g, tolerance * (1 + std::abs(g)));
+      for (int j = 0; j <= i; ++j, ++k) {
+        const double h = active0(i) && active0(j) ? expected.hessian(lane(i), lane(j)) : 0;
+        EXPECT_NEAR(hessian[k], h, tolerance * (1 + std::abs(h))) << i << ", " << j;
+      }
+    }
+  }
+}
+
+TYPED_TEST(AdComposition, LogSumExpIsNeitherTooLargeNorTooSmall) {
+  using T = TypeParam;
+  Composition<T> c;
+  const T u[2] = {T(300), T(-400)};
+  c.begin(u, 2);
+  const int z[2] = {0, 1};
+  const int l = c.logSumExp(z, 2, T(2));
+  EXPECT_EQ(c.value(l), T(300));
+  T gradient[2], hessian[3];
+  c.differentiate(l, gradient, hessian);
+  EXPECT_EQ(gradient[0], T(1));
+  EXPECT_EQ(gradient[1], T(0));
+  for (const T h : hessian) EXPECT_EQ(h, T(0));
+}
+
+TYPED_TEST(AdComposition, OneTermIsItself) {
+  Composition<TypeParam> c;
+  const TypeParam u[1] = {TypeParam(2)};
+  c.begin(u, 1);
+  const int z[1] = {0};
+  EXPECT_EQ(c.logSumExp(z, 1, TypeParam(2)), 0);
+  EXPECT_EQ(c.sum(c.none(), 0), 0);
+}
+
+}  // namespace
+}  // namespace h2mc::ad
