@@ -81,14 +81,14 @@ fi
 
 if [[ $quick == no ]]; then
   if step "build: address and undefined-behaviour sanitizers" \
-      build asan all "-DH2MC_TEST_FOLDERS=unit;derivative" -DH2MC_BUILD_BENCHMARKS=OFF -DH2MC_DERIVATIVE_EDGES=3; then
+      build asan all "-DH2MC_TEST_FOLDERS=unit;derivative" -DH2MC_BUILD_BENCHMARKS=OFF; then
     step "tests: unit, derivative and cli under the sanitizers" asan_tests
   else
     skip "tests: unit, derivative and cli under the sanitizers" "not built"
   fi
   if command -v clang++ >/dev/null; then
     if step "build: clang, warnings are errors" \
-      build clang all "${build_options[@]}" "-DH2MC_TEST_FOLDERS=ad;derivative" -DH2MC_BUILD_BENCHMARKS=OFF -DH2MC_DERIVATIVE_EDGES=4; then
+      build clang all "${build_options[@]}" "-DH2MC_TEST_FOLDERS=ad;derivative" -DH2MC_BUILD_BENCHMARKS=OFF; then
       step "tests: ad and derivative, compiled by clang" clang_tests
     else
       skip "tests: ad and derivative, compiled by clang" "not built"

@@ -50,7 +50,11 @@ class Composition {
     Variable variable;
     T weight;
   };
-  Variable linear(std::initializer_list<Term> terms);
+  /// The sum of weight * variable; count >= 1.
+  Variable linear(const Term* terms, int count);
+  Variable linear(std::initializer_list<Term> terms) {
+    return linear(terms.begin(), static_cast<int>(terms.size()));
+  }
   /// a + b, either of which may be none().
   Variable sum(Variable a, Variable b) {
     if (a == none()) return b;
@@ -197,16 +201,9 @@ auto Composition<T>::apply(const Variable (&inputs)[M], int count) -> Variable {
 }
 
 template <class T>
-auto Composition<T>::linear(std::initializer_list<Term> terms) -> Variable {
-  Node node{Node::kLinear,
-            count_,
-            1,
-            static_cast<int>(terms_.size()),
-            static_cast<int>(terms.size()),
-            T(0),
-            0,
-            nullptr};
-  terms_.insert(terms_.end(), terms.begin(), terms.end());
+auto Composition<T>::linear(const Term* terms, int count) -> Variable {
+  Node node{Node::kLinear, count_, 1, static_cast<int>(terms_.size()), count, T(0), 0, nullptr};
+  terms_.insert(terms_.end(), terms, terms + count);
   return finishLinear(node);
 }
 
@@ -239,8 +236,10 @@ auto Composition<T>::finishLinear(Node& node) -> Variable {
   values_[at(result)] = sum;
   withStride([&](auto stride) {
     for (int k = 0; k < stride; ++k) {
-      Lane out = terms[0].weight * row(terms[0].variable)[k];
-      for (int i = 1; i < node.inputCount; ++i) out += terms[i].weight * row(terms[i].variable)[k];
+      Lane out{};
+      // What has no weight need not be finite.
+      for (int i = 0; i < node.inputCount; ++i)
+        if (terms[i].weight != T(0)) out += terms[i].weight * row(terms[i].variable)[k];
       row(result)[k] = out;
     }
   });
@@ -261,8 +260,15 @@ void Composition<T>::differentiate(Variable result, T* gradient, T* hessian) {
     else
       linearBackward(node);
   }
-  for (int i = 0; i < coordinates_; hessian += ++i)
-    std::memcpy(hessian, hessian_.data() + i * stride_, sizeof(T) * at(i + 1));
+  // Whole vectors where what they write too much is written again.
+  const T* const end = hessian + at(coordinates_) * at(coordinates_ + 1) / 2;
+  for (int i = 0; i < coordinates_; hessian += ++i) {
+    const Lane* const h = hessian_.data() + i * stride_;
+    if (stride_ == 1 && end - hessian >= kLanes)
+      std::memcpy(hessian, h, sizeof(Lane));
+    else
+      std::memcpy(hessian, h, sizeof(T) * at(i + 1));
+  }
 }
 
 // hessian += S^T H S, H = the outputs' Hessians, each times its adjoint, S = the inputs' rows.

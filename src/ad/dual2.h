@@ -230,6 +230,17 @@ struct Dual2 {
         f, [&](int k) H2MC_AD_LAMBDA { return f1 * a.g[k]; },
         [&](auto c) H2MC_AD_LAMBDA { return f1 * a.h[c.index] + c.row(t) * c.column(a.g); });
   }
+  /// A logarithm by the chain rule, from its value and its slope: the second derivative -slope^2 leaves
+  /// the range of numbers long before what it is multiplied by does.
+  friend H2MC_AD_INLINE Dual2 chainLog(const Dual2& a, T f, T slope) {
+    if (!(std::abs(slope) <= std::numeric_limits<T>::max())) [[unlikely]]
+      return chainAtSingularity(a, f, slope, -slope * slope);
+    Vec t[Layout::kGradient];
+    for (int k = 0; k < Layout::kGradient; ++k) t[k] = slope * a.g[k];
+    return make(
+        f, [&](int k) H2MC_AD_LAMBDA { return t[k]; },
+        [&](auto c) H2MC_AD_LAMBDA { return slope * a.h[c.index] - c.row(t) * c.column(t); });
+  }
   /// f(a, b) by the chain rule, from f and its partial derivatives at (a.v, b.v). Where one of
   /// them is not finite, terms that it multiplies by zero are left out.
   friend H2MC_AD_INLINE Dual2 chain(const Dual2& a, const Dual2& b, T f, T fa, T fb, T faa, T fab,

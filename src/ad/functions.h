@@ -153,13 +153,11 @@ H2MC_AD_INLINE Dual2<T, N> expm1(const Dual2<T, N>& a) {
 }
 template <class T, int N>
 H2MC_AD_INLINE Dual2<T, N> log(const Dual2<T, N>& a) {
-  const T i = T(1) / a.v;
-  return chain(a, std::log(a.v), i, -i * i);
+  return chainLog(a, std::log(a.v), T(1) / a.v);
 }
 template <class T, int N>
 H2MC_AD_INLINE Dual2<T, N> log1p(const Dual2<T, N>& a) {
-  const T i = T(1) / (T(1) + a.v);
-  return chain(a, std::log1p(a.v), i, -i * i);
+  return chainLog(a, std::log1p(a.v), T(1) / (T(1) + a.v));
 }
 template <class T, int N>
 H2MC_AD_INLINE void sincos(const Dual2<T, N>& a, Dual2<T, N>& s, Dual2<T, N>& c) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <limits>
 #include <random>
 
 #include "ad/functions.h"
@@ -119,6 +120,23 @@ TYPED_TEST(AdComposition, LogSumExpIsNeitherTooLargeNorTooSmall) {
   EXPECT_EQ(gradient[0], T(1));
   EXPECT_EQ(gradient[1], T(0));
   for (const T h : hessian) EXPECT_EQ(h, T(0));
+}
+
+TYPED_TEST(AdComposition, WhatHasNoWeightNeedNotBeFinite) {
+  using T = TypeParam;
+  using D = Dual2<T, 1>;
+  Composition<T> c;
+  const T u[1] = {T(0.5)};
+  c.begin(u, 1);
+  D* const outputs = c.template outputs<1>(1);
+  outputs[0] = log(D::variable(T(0.5), 0) * std::numeric_limits<T>::denorm_min());
+  outputs[0].setGradient(0, std::numeric_limits<T>::infinity());
+  const int inputs[1] = {0};
+  const int z[2] = {c.apply(inputs, 1), 0};
+  T gradient[1], hessian[1];
+  c.differentiate(c.logSumExp(z, 2, T(20)), gradient, hessian);
+  EXPECT_EQ(gradient[0], T(1));
+  EXPECT_EQ(hessian[0], T(0));
 }
 
 TYPED_TEST(AdComposition, OneTermIsItself) {

@@ -78,7 +78,16 @@ void plainDerivative(benchmark::State& state, const std::string& file, int lengt
   });
 }
 
-// The derivatives, and the Gaussian made of them: the difference is the Gaussian's cost.
+// The derivatives in the form that is chosen, and with the Gaussian made of them: the difference is the
+// Gaussian's cost.
+void chosenDerivative(benchmark::State& state, const std::string& file, int length) {
+  Derivative result;
+  overPaths(state, file, length, [&](const Scene& scene, const Path& path) {
+    differentiate(scene, path, result);
+    benchmark::DoNotOptimize(result);
+  });
+}
+
 void gaussian(benchmark::State& state, const std::string& file, int length) {
   Derivative result;
   Gaussian made;
@@ -139,6 +148,7 @@ void registerScene(const std::string& name, const std::string& file) {
   add("value", value);
   add("derivative", derivative);
   add("plain derivative", plainDerivative);
+  add("chosen derivative", chosenDerivative);
   add("derivative+gaussian", gaussian);
   add("sample+density", sampleAndDensity);
   using Make = std::function<std::unique_ptr<Mutation>(const SceneTarget&)>;

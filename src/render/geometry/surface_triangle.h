@@ -66,8 +66,12 @@ void finishTrianglePoint(const View& mesh, std::uint32_t index, Vec3<typename Vi
   Vec3<P> passive = normal;
   if (mesh.hasNormals()) {
     if (mesh.sameNormals(t)) {
-      const Vec3<P> n = mesh.normal(t.x);
-      if (dot(value3(n), value3(n)) > S(0.5)) passive = n;
+      Vec3<P> n = mesh.normal(t.x);
+      if (dot(value3(n), value3(n)) > S(0.5)) {
+        // Of unit length in float; directions must be so in their own precision.
+        if constexpr (std::is_same_v<S, double>) n = ad::normalize(n);
+        passive = n;
+      }
     } else {
       const Vec3<P> a = mesh.normal(t.x), d1 = mesh.normal(t.y) - a, d2 = mesh.normal(t.z) - a;
       const Vec3<T> n{weighted2(b1, d1.x, b2, d2.x) + a.x, weighted2(b1, d1.y, b2, d2.y) + a.y,

@@ -13,49 +13,34 @@ namespace growing {
 extern template struct LogTarget<2>;
 extern template struct LogTarget<4>;
 extern template struct LogTarget<6>;
+#if H2MC_DERIVATIVE_EDGES > 3
 extern template struct LogTarget<8>;
-extern template struct MovingLogTarget<6>;
-extern template struct MovingLogTarget<10>;
-#if H2MC_DERIVATIVE_EDGES > 4
 extern template struct LogTarget<10>;
 extern template struct LogTarget<12>;
 extern template struct LogTarget<14>;
 extern template struct LogTarget<16>;
-extern template struct MovingLogTarget<14>;
-extern template struct MovingLogTarget<18>;
 #endif
 }  // namespace growing
 
 namespace {
 
-// The first result.dimension of the N coordinates.
-template <int N>
-void store(const ad::Dual2<float, N>& value, Derivative& result) {
-  result.logTarget = value.v;
-  for (int i = 0, k = 0; i < result.dimension; ++i) {
-    result.gradient[i] = value.gradient(i);
-    for (int j = 0; j <= i; ++j, ++k) result.hessian[k] = value.hessian(i, j);
-  }
-}
+// Above this many coordinates the local form is faster (README, Speed).
+constexpr int kMostForPlain = 6;
+static_assert(kMostForPlain <= kMaxPlainDimension);
 
 template <int N>
 bool dispatch(const Scene& scene, const Path& path, Derivative& result) {
-  if constexpr (N > kMaxPlainDimension + 1) {
+  if constexpr (N > kMaxPlainDimension) {
     return false;
   } else {
-    if constexpr (growing::compiledForMoving(N)) {
-      if (path.moving && result.dimension <= N) {
-        store<N>(growing::MovingLogTarget<N>::evaluate(scene, path), result);
-        return true;
-      }
+    if (result.dimension != N) return dispatch<N + 2>(scene, path, result);
+    const ad::Dual2<float, N> value = growing::LogTarget<N>::evaluate(scene, path);
+    result.logTarget = value.v;
+    for (int i = 0, k = 0; i < N; ++i) {
+      result.gradient[i] = value.gradient(i);
+      for (int j = 0; j <= i; ++j, ++k) result.hessian[k] = value.hessian(i, j);
     }
-    if constexpr (N <= kMaxPlainDimension) {
-      if (!path.moving && result.dimension == N) {
-        store<N>(growing::LogTarget<N>::evaluate(scene, path), result);
-        return true;
-      }
-    }
-    return dispatch<N + 2>(scene, path, result);
+    return true;
   }
 }
 
@@ -71,7 +56,7 @@ bool Derivative::finite() const {
 
 bool differentiatePlainly(const Scene& scene, const Path& path, Derivative& result) {
   result.dimension = path.dimension();
-  return dispatch<2>(scene, path, result);
+  return !path.moving && dispatch<2>(scene, path, result);
 }
 
 void differentiateLocally(const Scene& scene, const Path& path, Derivative& result) {
@@ -80,9 +65,8 @@ void differentiateLocally(const Scene& scene, const Path& path, Derivative& resu
   float u[kMaxDerivativeDimension];
   std::copy_n(path.sample.u.begin(), path.technique.dimension(), u);
   if (path.moving) u[path.technique.dimension()] = path.sample.time;
-  const int target = path.moving
-                         ? LocalForm<float, true>(scene, path, composition).logTarget(u)
-                         : LocalForm<float, false>(scene, path, composition).logTarget(u);
+  const int target = path.moving ? LocalForm<float, true>(scene, path, composition).logTarget(u)
+                                 : LocalForm<float, false>(scene, path, composition).logTarget(u);
   if (target < 0) {
     // A factor has underflowed: no derivatives.
     result.logTarget = -std::numeric_limits<float>::infinity();
@@ -93,7 +77,8 @@ void differentiateLocally(const Scene& scene, const Path& path, Derivative& resu
 }
 
 void differentiate(const Scene& scene, const Path& path, Derivative& result) {
-  differentiateLocally(scene, path, result);
+  if (path.dimension() > kMostForPlain || !differentiatePlainly(scene, path, result))
+    differentiateLocally(scene, path, result);
 }
 
 }  // namespace h2mc

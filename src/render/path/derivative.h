@@ -2,7 +2,8 @@
 // the contribution with ad::Dual2. Two forms of it:
 //
 // The plain one evaluates the whole path. A subpath has as many coordinates as have been drawn so far:
-// its k-th vertex costs derivatives of 2k coordinates, and only the connection sees all of them.
+// its k-th vertex costs derivatives of 2k coordinates, and only the connection sees all of them. It is
+// faster for short paths.
 //
 // The local one differentiates each vertex's own step and composes the steps (local_form.h): the cost
 // of a vertex does not grow with the path.
@@ -12,13 +13,12 @@
 
 namespace h2mc {
 
-// The longest paths of the plain form, in edges. Builds that are there to find mistakes, such as those
-// under the sanitizers, make do with fewer: each takes its time to compile.
+// The longest paths of the plain form, in edges; builds for comparisons of the two may have more, each
+// of which takes its time to compile.
 #ifndef H2MC_DERIVATIVE_EDGES
-#define H2MC_DERIVATIVE_EDGES 4
+#define H2MC_DERIVATIVE_EDGES 3
 #endif
-// Its coordinates: two an edge, and time.
-inline constexpr int kMaxPlainDimension = 2 * H2MC_DERIVATIVE_EDGES + 1;
+inline constexpr int kMaxPlainDimension = 2 * H2MC_DERIVATIVE_EDGES;
 // Coordinates of the longest path there is.
 inline constexpr int kMaxDerivativeDimension = 2 * kMaxPathLength + 1;
 
@@ -37,8 +37,8 @@ struct Derivative {
 // the last coordinate. Precondition: path.target > 0.
 void differentiate(const Scene& scene, const Path& path, Derivative& result);
 
-// The same by either form. The plain one is there for path.dimension() <= kMaxPlainDimension, and false
-// elsewhere.
+// The same by either form. The plain one is there for paths that do not depend on time, of at most
+// kMaxPlainDimension coordinates, and false for others.
 bool differentiatePlainly(const Scene& scene, const Path& path, Derivative& result);
 void differentiateLocally(const Scene& scene, const Path& path, Derivative& result);
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-
 #include <limits>
 
 #include "ad/dual2.h"
@@ -47,9 +46,8 @@ ad::DerivativeValues differentiateInDouble(const Scene& scene, const Path& path,
 ad::DerivativeValues differentiateLocallyInDouble(const Scene& scene, const Path& path,
                                                   const double* u) {
   ad::Composition<double> composition;
-  const int target = path.moving
-                         ? LocalForm<double, true>(scene, path, composition).logTarget(u)
-                         : LocalForm<double, false>(scene, path, composition).logTarget(u);
+  const int target = path.moving ? LocalForm<double, true>(scene, path, composition).logTarget(u)
+                                 : LocalForm<double, false>(scene, path, composition).logTarget(u);
   const auto n = static_cast<std::size_t>(path.dimension());
   ad::DerivativeValues result;
   result.gradient.resize(n);

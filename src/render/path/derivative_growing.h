@@ -1,7 +1,5 @@
 // The plain whole-path derivative, growing along the path. Instantiated once for each number of
 // coordinates (derivative_instance.cpp.in), so that no file takes long to compile.
-//
-// Time is a coordinate of every vertex from the first on: where a path depends on it, nothing grows.
 #pragma once
 
 #include "ad/dual2.h"
@@ -139,28 +137,6 @@ Dual<N> evaluateTechnique(const Scene& scene, const Path& path) {
 template <int N>
 Dual<N> LogTarget<N>::evaluate(const Scene& scene, const Path& path) {
   return evaluateTechnique<N, 0>(scene, path);
-}
-
-// For which N there is a MovingLogTarget: every other even number, and the largest.
-constexpr bool compiledForMoving(int n) {
-  return n > 2 && (n % 4 == 2 || n == kMaxPlainDimension + 1);
-}
-
-// The log target of a path that depends on time, by N coordinates: its own, then time, then as many as
-// are left, which nothing depends on, so that few N are compiled.
-template <int N>
-struct MovingLogTarget {
-  static Dual<N> evaluate(const Scene& scene, const Path& path);
-};
-
-template <int N>
-Dual<N> MovingLogTarget<N>::evaluate(const Scene& scene, const Path& path) {
-  const int own = path.technique.dimension();
-  Dual<N> u[N - 1];
-  for (int i = 0; i < own; ++i)
-    u[i] = Dual<N>::variable(path.sample.u[static_cast<std::size_t>(i)], i);
-  const Dual<N> time = Dual<N>::variable(path.sample.time, own);
-  return replayLogTarget<Dual<N>>(scene, path, u, &time);
 }
 
 }  // namespace h2mc::growing

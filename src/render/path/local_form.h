@@ -45,9 +45,9 @@ class LocalForm {
   struct Subpath {
     Variable at[2], direction[2];
     DirectionChart<S> chart{Vec3<S>(0, 0, 1)};  // of `direction`
-    // Logarithms; kNone where the throughput is 1, or where vcm or vc is zero: of the ray, vcm times
-    // the squared length. Arrival divides both by cosIn.
-    Variable throughput[3] = {kNone, kNone, kNone}, vcm = kNone, vc = kNone;
+    // Logarithms, kNone where they are zero: of the ray, vcm times the squared length. Arrival divides
+    // both by cosIn.
+    Variable vcm = kNone, vc = kNone;
   };
 
   // A function of M variables (and of time) under evaluation.
@@ -66,7 +66,7 @@ class LocalForm {
   template <int M>
   void logFactor(Step<M>& step, const Rgb<typename Step<M>::D>& factor, int (&outputs)[3]);
   template <int M>
-  void multiply(const Step<M>& step, const int (&outputs)[3], Variable (&logs)[3]);
+  void multiply(const Step<M>& step, const int (&outputs)[3]);
   // The MIS weight's terms from a subpath that the last step scales by `factors`.
   template <int M>
   Factors logFactors(Step<M>& step, const typename Link<typename Step<M>::D>::Factors& factors,
@@ -98,9 +98,14 @@ class LocalForm {
   const Path& path_;
   ad::Composition<S>& composition_;
   Subpath camera_, light_;
-  bool dark_[3] = {false, false, false};       // channels that nothing comes through
-  Variable value_[3] = {kNone, kNone, kNone};  // log of what the last step adds
-  Variable terms_[6];                          // logs of the terms of the MIS weight
+  // Logs of the factors that make a channel of the contribution; `dark` if one of them is zero.
+  struct Channel {
+    bool dark = false;
+    int count = 0;
+    Variable logs[kMaxPathLength + 2];
+  };
+  Channel channels_[3];
+  Variable terms_[6];  // logs of the terms of the MIS weight
   int termCount_ = 0;
 };
 

@@ -1,6 +1,10 @@
 // The steps of local_form.h; instantiated once for each scalar (local_form_*.cpp).
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
 #include "render/path/local_form.h"
 
 namespace h2mc {
@@ -91,22 +95,35 @@ auto LocalForm<S, kMoving>::arrival(const Step<M>& step, int first, const Subpat
                       subpath.chart.direction(Vec2<D>(step.x(first + 2), step.x(first + 3))));
 }
 
+// Whether two duals are the same function, as far as they know.
+template <class D>
+bool same(const D& a, const D& b) {
+  return a.v == b.v && std::memcmp(a.g, b.g, sizeof a.g) == 0 &&
+         std::memcmp(a.h, b.h, sizeof a.h) == 0;
+}
+
+// Channels with the same factor share an output.
 template <class S, bool kMoving>
 template <int M>
 void LocalForm<S, kMoving>::logFactor(Step<M>& step, const Rgb<typename Step<M>::D>& factor,
                                       int (&outputs)[3]) {
   for (int c = 0; c < 3; ++c) {
-    outputs[c] = dark_[c] ? kNone : step.addLog(factor[c]);
-    dark_[c] = outputs[c] == kNone;
+    outputs[c] = kNone;
+    if (channels_[c].dark) continue;
+    if (c > 0 && outputs[c - 1] != kNone && same(factor[c], factor[c - 1]))
+      outputs[c] = outputs[c - 1];
+    else
+      outputs[c] = step.addLog(factor[c]);
+    channels_[c].dark = outputs[c] == kNone;
   }
 }
 
 template <class S, bool kMoving>
 template <int M>
-void LocalForm<S, kMoving>::multiply(const Step<M>& step, const int (&outputs)[3],
-                                     Variable (&logs)[3]) {
+void LocalForm<S, kMoving>::multiply(const Step<M>& step, const int (&outputs)[3]) {
   for (int c = 0; c < 3; ++c)
-    if (!dark_[c]) logs[c] = composition_.sum(logs[c], step.variable(outputs[c]));
+    if (Channel& channel = channels_[c]; !channel.dark)
+      channel.logs[channel.count++] = step.variable(outputs[c]);
 }
 
 template <class S, bool kMoving>
@@ -170,7 +187,7 @@ void LocalForm<S, kMoving>::startLight() {
   const int vc = step.addLog(ray.vc);
   step.apply();
   arrive(step, leaving, light_);
-  multiply(step, throughput, light_.throughput);
+  multiply(step, throughput);
   light_.vc = step.variable(vc);
 }
 
@@ -202,7 +219,7 @@ void LocalForm<S, kMoving>::scatter(Side side, int index) {
   subpath.vc =
       root == kNone || factor == kNone ? kNone : composition_.sum(root, step.variable(factor));
   arrive(step, leaving, subpath);
-  multiply(step, throughput, subpath.throughput);
+  multiply(step, throughput);
 }
 
 template <class S, bool kMoving>
@@ -215,7 +232,7 @@ void LocalForm<S, kMoving>::seeEnvironment() {
   int value[3];
   logFactor(step, link.value, value);
   step.apply();
-  multiply(step, value, value_);
+  multiply(step, value);
 }
 
 template <class S, bool kMoving>
@@ -240,7 +257,7 @@ void LocalForm<S, kMoving>::scatterToEnvironment() {
     if (camera_.vc != kNone && !s.delta) reverse = step.addLog(s.reverse);
   }
   step.apply();
-  multiply(step, out, value_);
+  multiply(step, out);
   if (vcm != kNone) terms_[termCount_++] = step.variable(vcm);
   addTerm(step, vc, s.delta ? camera_.vc : logRoot(camera_, step.variable(reverse)));
 }
@@ -260,7 +277,7 @@ void LocalForm<S, kMoving>::hitLight() {
   logFactor(step, link.value, value);
   const Factors factors = logFactors(step, link.camera, vertex.cosIn);
   step.apply();
-  multiply(step, value, value_);
+  multiply(step, value);
   addTerms(step, factors, camera_);
 }
 
@@ -282,7 +299,7 @@ void LocalForm<S, kMoving>::connectToLight() {
   const int sampled = step.addLog(link.direct);
   const Factors factors = logFactors(step, link.camera, vertex.cosIn);
   step.apply();
-  multiply(step, value, value_);
+  multiply(step, value);
   if (sampled != kNone) terms_[termCount_++] = step.variable(sampled);
   addTerms(step, factors, camera_);
 }
@@ -303,7 +320,7 @@ void LocalForm<S, kMoving>::connectVertices() {
   const Factors ofCamera = logFactors(step, link.camera, camera.cosIn);
   const Factors ofLight = logFactors(step, link.light, light.cosIn);
   step.apply();
-  multiply(step, value, value_);
+  multiply(step, value);
   addTerms(step, ofCamera, camera_);
   addTerms(step, ofLight, light_);
 }
@@ -320,24 +337,34 @@ void LocalForm<S, kMoving>::connectToCamera() {
   logFactor(step, link.value, value);
   const Factors factors = logFactors(step, link.light, vertex.cosIn);
   step.apply();
-  multiply(step, value, value_);
+  multiply(step, value);
   addTerms(step, factors, light_);
 }
 
-// log(luminance of throughputs times values) + log(1 / (1 + sum of terms^2)).
+// log(luminance of the channels) + log(1 / (1 + sum of terms^2)). Channels of the same factors are one.
 template <class S, bool kMoving>
 auto LocalForm<S, kMoving>::finish() -> Variable {
-  Variable channels[3];
+  Variable sums[3];
   int count = 0;
+  bool taken[3] = {false, false, false};
   for (int c = 0; c < 3; ++c) {
-    if (dark_[c]) continue;
-    const Variable all =
-        composition_.sum(composition_.sum(camera_.throughput[c], light_.throughput[c]), value_[c]);
-    channels[count++] =
-        composition_.sum(all, composition_.constant(static_cast<S>(std::log(kLuminance[c]))));
+    const Channel& channel = channels_[c];
+    if (channel.dark || taken[c]) continue;
+    double weight = kLuminance[c];
+    for (int d = c + 1; d < 3; ++d) {
+      if (channels_[d].dark || taken[d] ||
+          !std::equal(channel.logs, channel.logs + channel.count, channels_[d].logs))
+        continue;
+      taken[d] = true;
+      weight += kLuminance[d];
+    }
+    typename ad::Composition<S>::Term factors[kMaxPathLength + 3];
+    for (int i = 0; i < channel.count; ++i) factors[i] = {channel.logs[i], S(1)};
+    factors[channel.count] = {composition_.constant(static_cast<S>(std::log(weight))), S(1)};
+    sums[count++] = composition_.linear(factors, channel.count + 1);
   }
   if (count == 0) return kNone;
-  const Variable value = composition_.logSumExp(channels, count, S(1));
+  const Variable value = composition_.logSumExp(sums, count, S(1));
   if (termCount_ == 0) return value;
   terms_[termCount_++] = composition_.constant(S(0));
   return composition_.linear(

@@ -47,11 +47,7 @@ T joinedLogTarget(const Scene& scene, const Path& path, const PathRay<T>& camera
   } else {
     c = connectVertices<T>(scene, camera, cameraId, light, lightId);
   }
-  // Scaled to 1 first: the second derivative of a logarithm leaves float's range at 1e-19. Smaller
-  // than 1e-37 the scale itself would.
-  const T target = luminance(c.value) * c.weight;
-  const Scalar<T> scale = Scalar<T>(1) / std::max(ad::value(target), Scalar<T>(1e-37));
-  return log(target * scale) - log(scale);
+  return log(luminance(c.value) * c.weight);
 }
 
 template <class T>

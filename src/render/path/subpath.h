@@ -105,6 +105,8 @@ PathRay<T> startLight(const Scene& scene, int light, PrimitiveId primitive, cons
         PathRay<T> ray;
         ray.origin = e.origin;
         ray.direction = e.direction;
+        // The frames that lights have are of unit length in float.
+        if constexpr (std::is_same_v<S, double>) ray.direction = normalize(ray.direction);
         ray.originNormal = value3(e.normal);
         const T inverse = T(1) / (e.emissionPdf * pick);
         ray.throughput = e.power * inverse;
