@@ -34,6 +34,18 @@ std::vector<std::string> KernelMixture::kindNames() const {
   return names;
 }
 
+std::size_t KernelMixture::choose(const Technique& technique, Random& random) const {
+  if (random.uniform() < largeProbability) return 0;
+  const bool camera = technique.t >= 2;
+  double u = random.uniform();
+  std::size_t kind = 1;
+  for (; kind < small.size(); ++kind) {
+    u -= camera ? small[kind - 1].cameraShare : small[kind - 1].lightShare;
+    if (u < 0) break;
+  }
+  return kind;
+}
+
 Chain::Chain(const Target& target, const Path& start, Random random)
     : target_(target),
       current_(std::make_unique<ChainState>(target.maxLength())),
@@ -69,19 +81,8 @@ void Chain::step(KernelMixture& kernels, ChainFilms& films, ChainStatistics& sta
   RaySeconds rays(context.timed);
   const double start = context.timed ? wallClock() : 0;
 
-  // Which kernel.
-  Mutation* mutation = kernels.large.get();
-  std::size_t kind = 0;
-  if (random_.uniform() >= kernels.largeProbability) {
-    const bool camera = current_->path.technique.t >= 2;
-    double u = random_.uniform();
-    for (kind = 1; kind < kernels.small.size(); ++kind) {
-      const KernelMixture::Small& small = kernels.small[kind - 1];
-      u -= camera ? small.cameraShare : small.lightShare;
-      if (u < 0) break;
-    }
-    mutation = kernels.small[kind - 1].mutation.get();
-  }
+  const std::size_t kind = kernels.choose(current_->path.technique, random_);
+  Mutation* const mutation = &kernels.mutation(kind);
 
   proposed_->forget();
   proposed_->path.finite = true;
@@ -89,9 +90,7 @@ void Chain::step(KernelMixture& kernels, ChainFilms& films, ChainStatistics& sta
   const bool made = mutation->propose(*current_, *proposed_, context, logRatio);
   double acceptance = 0;
   if (made) {
-    const double ratio =
-        double(proposed_->path.target) / current_->path.target * std::exp(logRatio);
-    acceptance = std::isfinite(ratio) ? std::min(1.0, ratio) : (ratio > 0 ? 1.0 : 0.0);
+    acceptance = acceptanceProbability(current_->path, proposed_->path, logRatio);
   } else if (!proposed_->path.finite) {
     if (statistics.notFinite++ == 0) statistics.firstNotFinite = describe(proposed_->path);
   }

@@ -33,8 +33,12 @@ struct KernelMixture {
   double shared(const Technique& technique) const {
     return brightness > 0 ? share() * large->density(technique) : 0;
   }
+  // Kinds of mutation: 0 is the large step, k the small one k - 1.
   int kinds() const { return 1 + static_cast<int>(small.size()); }
   std::vector<std::string> kindNames() const;
+  Mutation& mutation(std::size_t kind) { return kind ? *small[kind - 1].mutation : *large; }
+  // Draws the kind for a state of this technique. Two random numbers, one for a large step.
+  std::size_t choose(const Technique& technique, Random& random) const;
 };
 
 // What chains leave: `states` for n mutations is to be divided by n and multiplied by the target's

@@ -51,14 +51,8 @@ ChainEnsemble::ChainEnsemble(const Scene& scene, const MetropolisMethod& method,
   const int groups = groupCount(scene.film);
   groups_.reserve(static_cast<std::size_t>(groups));
   for (int g = 0; g < groups; ++g) {
-    KernelMixture kernels;
-    if (bidirectional)
-      kernels.large = std::make_unique<BidirectionalLargeStep>(target_, minLength);
-    else
-      kernels.large = std::make_unique<MultiplexedLargeStep>(target_, techniques_);
-    kernels.largeProbability = options.number("largeStepProbability");
+    KernelMixture kernels = makeKernels(method, target_, techniques_, options, minLength);
     kernels.brightness = bootstrap.luminance().mean();
-    kernels.small = method.smallSteps(target_, options);
     const int kinds = kernels.kinds();
     groups_.push_back(
         {ChainFilms(scene.film), std::move(kernels), ChainStatistics(kinds, maxLength), {}, {}});

@@ -18,9 +18,7 @@ constexpr auto kParameters = withShared(std::array{
 });
 
 std::vector<KernelMixture::Small> smallSteps(const SceneTarget& target, const OptionSet& options) {
-  const HamiltonianSettings settings{static_cast<float>(options.number("sigma")),
-                                     static_cast<float>(options.number("trajectoryLength")),
-                                     static_cast<float>(options.number("maxDrift"))};
+  const HamiltonianSettings settings = hamiltonianSettings(options);
   const double lens = options.number("lensProbability");
   const double isotropic = options.number("isotropicProbability");
   std::vector<KernelMixture::Small> steps;
@@ -39,6 +37,17 @@ void check(const OptionSet& options) {
 }
 
 }  // namespace
+
+HamiltonianSettings hamiltonianSettings(const OptionSet& options) {
+  HamiltonianSettings settings;
+  const auto take = [&](const char* name, float& value) {
+    if (options.has(name)) value = static_cast<float>(options.number(name));
+  };
+  take("sigma", settings.sigma);
+  take("trajectoryLength", settings.trajectory);
+  take("maxDrift", settings.maxDrift);
+  return settings;
+}
 
 MetropolisMethod h2mcMethod() {
   return {{"h2mc", "Metropolis light transport with Hessian-Hamiltonian proposals", kParameters},

@@ -12,13 +12,25 @@ IntegratorFactory factory() {
           [](const OptionSet& options) { return makeMetropolisIntegrator(method(), options); }};
 }
 
+template <MetropolisMethod (*... methods)()>
+struct Methods {
+  static std::vector<MetropolisMethod> list() { return {methods()...}; }
+  static std::vector<IntegratorFactory> factories() { return {factory<methods>()...}; }
+};
+
+using All = Methods<mmltMethod, h2mcMethod>;
+
 }  // namespace
+
+std::span<const MetropolisMethod> metropolisMethods() {
+  static const std::vector<MetropolisMethod> list = All::list();
+  return list;
+}
 
 std::span<const IntegratorFactory> allIntegrators() {
   static const std::vector<IntegratorFactory> list = [] {
     std::vector<IntegratorFactory> all(renderIntegrators().begin(), renderIntegrators().end());
-    all.push_back(factory<mmltMethod>());
-    all.push_back(factory<h2mcMethod>());
+    for (const IntegratorFactory& factory : All::factories()) all.push_back(factory);
     return all;
   }();
   return list;

@@ -134,6 +134,19 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
 
 }  // namespace
 
+KernelMixture makeKernels(const MetropolisMethod& method, const SceneTarget& target,
+                          const TechniqueDistribution& techniques, const OptionSet& options,
+                          int minLength) {
+  KernelMixture kernels;
+  if (options.string("largeStep") == "bidirectional")
+    kernels.large = std::make_unique<BidirectionalLargeStep>(target, minLength);
+  else
+    kernels.large = std::make_unique<MultiplexedLargeStep>(target, techniques);
+  kernels.largeProbability = options.number("largeStepProbability");
+  kernels.small = method.smallSteps(target, options);
+  return kernels;
+}
+
 std::unique_ptr<Integrator> makeMetropolisIntegrator(const MetropolisMethod& method,
                                                      const OptionSet& options) {
   return std::make_unique<MetropolisIntegrator>(method, options);

@@ -15,6 +15,12 @@ struct MetropolisMethod {
   void (*check)(const OptionSet& options) = nullptr;  // throws OptionError for its own options
 };
 
+// The mixture that chains of this method run, with its options; brightness is 0. Keeps references to
+// the target and, for multiplexed large steps, to the techniques.
+KernelMixture makeKernels(const MetropolisMethod& method, const SceneTarget& target,
+                          const TechniqueDistribution& techniques, const OptionSet& options,
+                          int minLength);
+
 // Throws OptionError for options out of range.
 std::unique_ptr<Integrator> makeMetropolisIntegrator(const MetropolisMethod& method,
                                                      const OptionSet& options);

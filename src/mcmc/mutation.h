@@ -1,6 +1,8 @@
 // States and the kernels that move between them.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "mcmc/gaussian.h"
@@ -94,5 +96,12 @@ class Mutation {
                path.contribution * static_cast<float>(weight / (path.target + shared)));
   }
 };
+
+// Metropolis-Hastings: the probability with which a proposal is accepted that Mutation::propose made,
+// with the logRatio that it gave. In [0, 1]. Precondition: from.target > 0.
+inline double acceptanceProbability(const Path& from, const Path& to, double logRatio) {
+  const double ratio = double(to.target) / from.target * std::exp(logRatio);
+  return std::isfinite(ratio) ? std::min(1.0, ratio) : (ratio > 0 ? 1.0 : 0.0);
+}
 
 }  // namespace h2mc

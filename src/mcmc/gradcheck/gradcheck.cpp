@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mcmc/gradcheck/form_check.h"
+#include "mcmc/path_vertices.h"
 #include "render/integrator/parallel_rounds.h"
 #include "render/path/replay_double.h"
 
@@ -25,9 +26,7 @@ std::uint32_t bsdfBits(const Scene& scene, const std::vector<TracedVertex>& vert
   std::uint32_t bits = 0;
   for (int i = 1; i <= count; ++i) {
     const TracedVertex& v = vertices[static_cast<std::size_t>(i)];
-    bool back;
-    const Bsdf* const bsdf =
-        detail::seen(std::span(scene.bsdfs), materialAt(scene, v.id), v.vertex.wi.z, back);
+    const Bsdf* const bsdf = bsdfSeen(scene, v);
     if (bsdf) bits |= 1u << bsdf->index();
   }
   return bits;

@@ -108,13 +108,11 @@ std::vector<SampledPath> sampleChains(const Scene& scene, int maxLength, int cou
   const SceneTarget target(scene, maxLength, everywhere);
   const MetropolisMethod method = h2mcMethod();
   const OptionSet options(method.plugin);
+  const TechniqueDistribution techniques(1, maxLength);
   const int chains = std::min(kChains, count);
   std::vector<std::vector<SampledPath>> found(static_cast<std::size_t>(chains));
   parallelFor(threads, chains, [&](int c) {
-    KernelMixture kernels;
-    kernels.large = std::make_unique<BidirectionalLargeStep>(target, 1);
-    kernels.largeProbability = options.number("largeStepProbability");
-    kernels.small = method.smallSteps(target, options);
+    KernelMixture kernels = makeKernels(method, target, techniques, options, 1);
     ChainStatistics statistics(kernels.kinds(), maxLength);
     MutationContext context;
     FilmSettings settings = scene.film;  // nobody looks at the picture

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mcmc/gradcheck/report.h"
+#include "mcmc/path_vertices.h"
 #include "render/path/path_text.h"
 #include "render/scene/kinds.h"
 
@@ -50,9 +51,7 @@ std::string allGroups(const json& report, Line&& line) {
 }
 
 std::string lobeText(const Scene& scene, const TracedVertex& v) {
-  const Material& material = materialAt(scene, v.id);
-  bool back;
-  const Bsdf* const bsdf = detail::seen(std::span(scene.bsdfs), material, v.vertex.wi.z, back);
+  const Bsdf* const bsdf = bsdfSeen(scene, v);
   const Vec3f& p = v.vertex.point.p;
   return fmt::format("{:<16} {:<16} lobe {}{}{}  at ({:.6g}, {:.6g}, {:.6g}), cos {:.3g}\n",
                      scene.shapes[v.id.shape].name, bsdf ? kindOf(*bsdf) : "black", v.lobe.lobe,
