@@ -1,6 +1,7 @@
 // The program's commands. Each is one file; they share only what is declared here.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <stdexcept>
@@ -17,7 +18,7 @@ namespace h2mc {
 
 enum ExitCode {
   kSuccess = 0,
-  kCheckFailed = 1,  // diff, gradcheck: more than the tolerance
+  kCheckFailed = 1,  // diff, gradcheck: more than the tolerance; inspect: no light
   kBadInput = 2,     // options, scene, images, paths
   kFailed = 3,       // anything else: memory, disk, a mistake in the program
   kInterrupted = 130,
@@ -39,6 +40,7 @@ void addDiffCommand(CLI::App& app, Run& run);
 void addGradcheckCommand(CLI::App& app, Run& run);
 void addCompareCommand(CLI::App& app, Run& run);
 void addDemoCommand(CLI::App& app, Run& run);
+void addInspectCommand(CLI::App& app, Run& run);
 
 // The tables of all integrators, for the scene reader.
 std::vector<IntegratorPlugin> integratorPlugins();
@@ -48,5 +50,9 @@ std::map<std::string, std::string> parseDefines(const std::vector<std::string>& 
 
 // Throws InputError if `file` can't be written; an empty name is none. Leaves what is there.
 void checkWritableFile(const std::string& file);
+
+// Makes the folder where it is not there, with those above it, and throws InputError if that fails or
+// if `file` can't be written into it. True if the folder is new.
+bool prepareFolder(const std::filesystem::path& folder, const std::string& file);
 
 }  // namespace h2mc

@@ -93,14 +93,6 @@ ComparisonPlan planOf(const CompareOptions& options) {
   return plan;
 }
 
-void prepareFolder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw InputError("cannot make the folder \"" + folder.string() + "\": " + error.message());
-  checkWritableFile((folder / "results.csv").string());
-}
-
 int interrupted(const ComparisonPlan& plan) {
   fmt::print(
       stderr,
@@ -139,7 +131,7 @@ int compare(const CompareOptions& options) {
     for (const ExternalMethod& external : plan.externals)
       externals.back().push_back(readExternal(external, outline, plan.scenes.size() == 1));
   }
-  prepareFolder(plan.folder);
+  prepareFolder(plan.folder, "results.csv");
 
   const StopSignals signals;
   StatusLine line(options.quiet);

@@ -12,6 +12,7 @@
 #include "cli/commands.h"
 #include "compare/comparison.h"
 #include "h2mc_version.h"
+#include "inspect/inspect.h"
 #include "mcmc/integrators.h"
 #include "render/image/atomic_file.h"
 #include "render/image/image_io.h"
@@ -46,6 +47,15 @@ void checkWritableFile(const std::string& file) {
   }
 }
 
+bool prepareFolder(const std::filesystem::path& folder, const std::string& file) {
+  std::error_code error;
+  const bool made = std::filesystem::create_directories(folder, error);
+  if (error)
+    throw InputError("cannot make the folder \"" + folder.string() + "\": " + error.message());
+  checkWritableFile((folder / file).string());
+  return made;
+}
+
 namespace {
 
 int report(int exitCode, const char* message) {
@@ -67,9 +77,8 @@ int run(int argc, char** argv) {
   app.failure_message(CLI::FailureMessage::simple);
   app.footer(
       "`h2mc COMMAND --help` explains a command's options.\n"
-      "Exit codes: 0 done, 1 a check failed (diff --tolerance, gradcheck), 2 wrong input, 3 any "
-      "other failure,\n"
-      "130 interrupted.");
+      "Exit codes: 0 done, 1 a check failed (diff --tolerance, gradcheck) or a pixel is dark\n"
+      "(inspect), 2 wrong input, 3 any other failure, 130 interrupted.");
   Run command;
   addRenderCommand(app, command);
   addInfoCommand(app, command);
@@ -78,8 +87,9 @@ int run(int argc, char** argv) {
   addGradcheckCommand(app, command);
   addCompareCommand(app, command);
   addDemoCommand(app, command);
+  addInspectCommand(app, command);
 
-  const Names commands{"render", "info", "list", "diff", "gradcheck", "compare", "demo"};
+  const Names commands{"render", "info", "list", "diff", "gradcheck", "compare", "demo", "inspect"};
   const std::string first = argc > 1 ? argv[1] : "";
   const bool known = std::find(commands.begin(), commands.end(), first) != commands.end();
   if (!first.empty() && first[0] != '-' && !known)
@@ -105,6 +115,8 @@ int run(int argc, char** argv) {
   } catch (const OptionError& e) {
     return report(kBadInput, e.what());
   } catch (const ComparisonError& e) {
+    return report(kBadInput, e.what());
+  } catch (const InspectError& e) {
     return report(kBadInput, e.what());
   } catch (const ImageError& e) {
     return report(kBadInput, e.what());

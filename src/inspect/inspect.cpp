@@ -1,0 +1,183 @@
+#include "inspect/inspect.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "inspect/path_search.h"
+#include "mcmc/bootstrap.h"
+#include "mcmc/direct_lighting.h"
+#include "mcmc/h2mc.h"
+#include "render/integrator/common_options.h"
+#include "render/scene/suggestion.h"
+
+namespace h2mc {
+namespace {
+
+constexpr std::uint64_t kProposalStream = 0x696e7372;
+// Slices reach so many standard deviations to either side.
+constexpr double kReach = 4;
+// Eigenvectors that are paired with one another, beside the weakest.
+constexpr std::size_t kStrongest = 4;
+constexpr std::size_t kMostCoordinatePairs = 8;
+constexpr long long kTechniqueSamples = 20000;
+
+std::pair<std::string, std::string> splitPair(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos) return {text, ""};
+  return {text.substr(0, comma), text.substr(comma + 1)};
+}
+
+bool isDirectionName(const std::string& name) {
+  if (name == "time") return true;
+  return name.size() >= 2 && name.size() <= 4 && (name[0] == 'e' || name[0] == 'u') &&
+         std::all_of(name.begin() + 1, name.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+using NamedPair = std::pair<std::string, std::string>;
+
+// The chosen pair, then those that the page offers beside it.
+std::vector<NamedPair> pairNames(const LocalModel& model, const Path& path,
+                                 const std::string& chosen) {
+  std::vector<NamedPair> pairs;
+  const auto add = [&](const std::string& x, const std::string& y) {
+    for (const NamedPair& known : pairs)
+      if (known == NamedPair{x, y}) return;
+    pairs.emplace_back(x, y);
+  };
+  if (!chosen.empty()) {
+    const auto [x, y] = splitPair(chosen);
+    add(x, y);
+  }
+  std::vector<std::string> eigen;
+  for (std::size_t i = 1; i <= std::min(kStrongest, model.eigen.size()); ++i)
+    eigen.push_back(fmt::format("e{}", i));
+  if (model.eigen.size() > kStrongest) eigen.push_back(fmt::format("e{}", model.eigen.size()));
+  for (std::size_t i = 0; i < eigen.size(); ++i)
+    for (std::size_t j = i + 1; j < eigen.size(); ++j) add(eigen[i], eigen[j]);
+  const auto own = static_cast<std::size_t>(path.technique.dimension());
+  for (std::size_t i = 0; i < std::min(own, 2 * kMostCoordinatePairs); i += 2)
+    add(fmt::format("u{}", i), fmt::format("u{}", i + 1));
+  if (path.moving) add("u0", "time");
+  return pairs;
+}
+
+Direction directionOf(const LocalModel& model, const Path& path, const std::string& name) {
+  Direction direction = model.direction(name, path.moving);
+  if (!direction.vector.empty()) return direction;
+  if (name[0] == 'e' && !model.available)
+    throw InspectError("--pair: no eigenvector \"" + name + "\": " + model.reason);
+  throw InspectError("--pair: this path has no \"" + name +
+                     "\"; available: " + joined(model.names(path.moving)));
+}
+
+// Half the edge of a slice on the scale of the Gaussian, its centre of mass well inside.
+double closeHalf(const LocalModel& model, const Direction& direction) {
+  return std::min(0.5, kReach * model.deviationAlong(direction.vector) +
+                           std::abs(model.driftAlong(direction.vector)));
+}
+
+void tracePairs(const Scene& scene, const InspectSettings& settings, Inspection& result) {
+  const double sigma = result.model.settings.sigma;
+  const double wide =
+      settings.sliceSize > 0 ? settings.sliceSize / 2 : std::min(kReach * sigma, 0.5);
+  for (const auto& [x, y] : pairNames(result.model, result.path, settings.pair)) {
+    if (settings.stop && *settings.stop) return;
+    InspectedPair pair{directionOf(result.model, result.path, x),
+                       directionOf(result.model, result.path, y),
+                       {},
+                       {}};
+    const auto trace = [&](double halfX, double halfY) {
+      return traceSlice(scene, result.path, pair.x, pair.y, halfX, halfY, settings.resolution,
+                        settings.threads, settings.stop);
+    };
+    pair.wide = trace(wide, wide);
+    pair.close = trace(closeHalf(result.model, pair.x), closeHalf(result.model, pair.y));
+    result.pairs.push_back(std::move(pair));
+  }
+}
+
+void choosePath(const SceneTarget& target, KernelMixture& kernels, const OptionSet& options,
+                const InspectSettings& settings, Inspection& result) {
+  Path& path = result.path;
+  if (settings.choice == PathChoice::kGiven) {
+    path.technique = settings.given;
+    path.sample = settings.givenSample;
+    if (!target.evaluate(path))
+      throw InspectError("--replay: in this scene that path carries no light");
+    return;
+  }
+  const int shortest = options.integer("minDepth");
+  // Paths of one and two edges are usually left to path tracing: chains see the longer ones.
+  const int usual = options.integer("directSamples") == 0
+                        ? shortest
+                        : std::max(shortest, DirectLighting::kLongest + 1);
+  for (const int length : {usual, shortest}) {
+    if (length <= target.maxLength() &&
+        findPath(target, kernels, length, settings, path, result.search))
+      return;
+    if (settings.stop && *settings.stop) return;
+  }
+  throw DarkPixel(fmt::format(
+      "no light arrives at pixel {},{}: of {} samples through it, with paths of {} to {} edges, "
+      "none contributes",
+      settings.pixelX, settings.pixelY, result.search.samples, shortest, target.maxLength()));
+}
+
+}  // namespace
+
+void checkPairText(const std::string& text) {
+  const auto [x, y] = splitPair(text);
+  if (!isDirectionName(x) || !isDirectionName(y))
+    throw InspectError(
+        "--pair: expected two names with a comma between, e1,e2 (eigenvectors) or "
+        "u0,u1 (coordinates), got \"" +
+        text + "\"");
+  if (x == y) throw InspectError("--pair: \"" + text + "\" is the same direction twice");
+  if ((x[0] == 'e') != (y[0] == 'e'))
+    throw InspectError("--pair: \"" + text +
+                       "\" mixes an eigenvector with a coordinate, which are not at right angles");
+}
+
+Inspection inspect(const Scene& scene, const MetropolisMethod& method, const OptionSet& options,
+                   const InspectSettings& settings) {
+  if (!settings.pair.empty()) checkPairText(settings.pair);
+  int maxLength = maxPathLength(options);
+  if (settings.choice == PathChoice::kGiven)
+    maxLength = std::max(maxLength, settings.given.length());
+  const int minLength = std::min(options.integer("minDepth"), maxLength);
+  const ImportanceMap everywhere;
+  const SceneTarget target(scene, maxLength, everywhere);
+  TechniqueDistribution techniques(minLength, maxLength);
+  if (options.string("largeStep") != "bidirectional") {
+    const Bootstrap bootstrap(scene, minLength, maxLength, kTechniqueSamples, settings.seed,
+                              settings.threads);
+    const std::vector<double>& weights = bootstrap.techniqueLuminance();
+    techniques.setWeights(weights, std::vector<bool>(weights.size(), true));
+  }
+  KernelMixture kernels = makeKernels(method, target, techniques, options, minLength);
+
+  Inspection result(maxLength);
+  const auto stopped = [&] { return settings.stop && *settings.stop; };
+  choosePath(target, kernels, options, settings, result);
+  if ((result.interrupted = stopped())) return result;
+  result.pixelX = pixelAt(result.path.filmX, scene.film.width);
+  result.pixelY = pixelAt(result.path.filmY, scene.film.height);
+  result.model = localModel(scene, result.path, hamiltonianSettings(options));
+
+  tracePairs(scene, settings, result);
+  ChainState state(maxLength);
+  state.path = result.path;
+  const bool camera = result.path.technique.t >= 2;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(kernels.kinds()) && !stopped(); ++k) {
+    // What a method never proposes for paths that the light subpath ends may not be possible there.
+    if (k > 0 && !camera && !(kernels.small[k - 1].lightShare > 0)) continue;
+    result.kinds.push_back(propose(scene, kernels.mutation(k), state, result.model,
+                                   settings.proposals, Random(settings.seed, kProposalStream, k)));
+  }
+  result.interrupted = stopped();
+  return result;
+}
+
+}  // namespace h2mc

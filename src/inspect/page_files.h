@@ -1,0 +1,10 @@
+// The sources of the page, as CMake embeds them.
+#pragma once
+
+#include <string_view>
+
+namespace h2mc::page {
+
+extern const std::string_view kInspectStyle, kInspectHtml, kInspectScript;
+
+}  // namespace h2mc::page
