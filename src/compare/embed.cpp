@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "render/image/color_encoding.h"
+
 namespace h2mc {
 namespace {
 
@@ -51,6 +53,26 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
       text += k <= count ? kDigits[group >> (18 - 6 * k) & 63] : '=';
   }
   return text;
+}
+
+std::string base64Srgb(const Image& image, float scale) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(image.pixels.size() * 3);
+  for (const Rgbf& p : image.pixels)
+    for (int c = 0; c < 3; ++c)
+      bytes.push_back(
+          static_cast<std::uint8_t>(255 * linearToSrgb(std::clamp(scale * p[c], 0.f, 1.f)) + 0.5f));
+  return base64(bytes);
+}
+
+float whiteScale(const Image& image, double share) {
+  std::vector<float> largest;
+  for (const Rgbf& p : image.pixels) largest.push_back(std::max({p.x, p.y, p.z}));
+  const double below = static_cast<double>(largest.size()) * (1 - share);
+  const auto nth =
+      largest.begin() + std::min(static_cast<std::ptrdiff_t>(below), std::ssize(largest) - 1);
+  std::nth_element(largest.begin(), nth, largest.end());
+  return *nth > 0 ? 1 / *nth : 1;
 }
 
 std::string filledPage(std::string_view html, std::string_view style, std::string_view script,

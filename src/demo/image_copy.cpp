@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "compare/embed.h"
-#include "render/image/color_encoding.h"
 #include "render/image/metrics.h"
 #include "render/integrator/parallel_rounds.h"
 
@@ -18,26 +17,6 @@ constexpr long long kLevels[] = {1, 8, 64, 256};
 constexpr long long kSweepLevel = 16;
 constexpr int kSweepSteps = 13;
 constexpr float kSmallestSigma = 5e-4f, kLargestSigma = 0.5f;
-
-// sRGB bytes as text, all scaled alike.
-std::string encoded(const Image& image, float scale) {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(image.pixels.size() * 3);
-  for (const Rgbf& p : image.pixels)
-    for (int c = 0; c < 3; ++c)
-      bytes.push_back(
-          static_cast<std::uint8_t>(255 * linearToSrgb(std::clamp(scale * p[c], 0.f, 1.f)) + 0.5f));
-  return base64(bytes);
-}
-
-// A white that only one pixel in a hundred is brighter than.
-float whiteScale(const Image& image) {
-  std::vector<float> largest;
-  for (const Rgbf& p : image.pixels) largest.push_back(std::max({p.x, p.y, p.z}));
-  const auto nth = largest.begin() + static_cast<std::ptrdiff_t>(largest.size() * 99 / 100);
-  std::nth_element(largest.begin(), nth, largest.end());
-  return *nth > 0 ? 1 / *nth : 1;
-}
 
 std::vector<CopyKernel> kernelsOf(const ImageCopySettings& s) {
   return {
@@ -190,7 +169,7 @@ json copyImage(const PictureTarget& target, const ImageCopySettings& settings,
         levels.push_back({{"perPixel", level},
                           {"acceptance", chain.acceptance()},
                           {"relmse", relmse.compute(copy, reference)},
-                          {"pixels", encoded(copy, white)}});
+                          {"pixels", base64Srgb(copy, white)}});
       }
       json walk = json::array();
       for (const auto& [x, y] : chain.walk()) walk.push_back({x, y});
@@ -216,7 +195,7 @@ json copyImage(const PictureTarget& target, const ImageCopySettings& settings,
   if (stop) return nullptr;
   return {{"width", reference.width},
           {"height", reference.height},
-          {"reference", encoded(reference, white)},
+          {"reference", base64Srgb(reference, white)},
           {"sweepPerPixel", kSweepLevel},
           {"largeShare", settings.largeShare},
           {"methods", methods},

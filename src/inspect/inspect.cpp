@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "inspect/film_preview.h"
 #include "inspect/path_search.h"
 #include "mcmc/bootstrap.h"
 #include "mcmc/direct_lighting.h"
@@ -176,6 +177,7 @@ Inspection inspect(const Scene& scene, const MetropolisMethod& method, const Opt
     result.kinds.push_back(propose(scene, kernels.mutation(k), state, result.model,
                                    settings.proposals, Random(settings.seed, kProposalStream, k)));
   }
+  result.film = previewFilm(scene, maxLength, settings.seed, settings.threads, settings.stop);
   result.interrupted = stopped();
   return result;
 }

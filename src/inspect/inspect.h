@@ -13,6 +13,7 @@
 #include "inspect/proposals.h"
 #include "inspect/slice.h"
 #include "mcmc/metropolis_integrator.h"
+#include "render/image/image.h"
 
 namespace h2mc {
 
@@ -75,6 +76,7 @@ struct Inspection {
   LocalModel model;
   std::vector<InspectedPair> pairs;  // the chosen one first
   std::vector<ProposalKind> kinds;   // the mixture's, in its order
+  Image film;                        // the scene in small, previewFilm()
   bool interrupted = false;          // then nothing but `search` need be there
 };
 

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/embed.h"
 #include "inspect/canvas.h"
+#include "inspect/film_preview.h"
+#include "render/image/color_encoding.h"
 #include "render/scene/scene.h"
 
 namespace h2mc {
@@ -29,6 +32,14 @@ Canvas::Color mixed(Canvas::Color a, Canvas::Color b, double t) {
     const double x = a >> shift & 255, y = b >> shift & 255;
     result |= static_cast<Canvas::Color>(std::lround(x + (y - x) * t)) << shift;
   }
+  return result;
+}
+
+Canvas::Color colorOf(const Rgbf& linear) {
+  Canvas::Color result = 0;
+  for (int c = 0; c < 3; ++c)
+    result = result << 8 | static_cast<Canvas::Color>(
+                               std::lround(255 * linearToSrgb(std::clamp(linear[c], 0.f, 1.f))));
   return result;
 }
 
@@ -239,7 +250,7 @@ class Picture {
       }
     canvas_.clip();
     if (beyond > 0) label(fmt::format("{} beyond", beyond), 0);
-    if (lost > 0) label(fmt::format("{} undone", lost), 1);
+    if (lost > 0) label(fmt::format("{} outside", lost), 1);
   }
 
   // In the lower left corner of the plot, lines counted from below.
@@ -254,7 +265,13 @@ class Picture {
     const double aspect = static_cast<double>(scene_.film.width) / scene_.film.height;
     const int width = static_cast<int>(std::lround(plot_ * std::min(1.0, aspect)));
     const int height = static_cast<int>(std::lround(plot_ * std::min(1.0, 1 / aspect)));
-    canvas_.rectangle(left_, top_, width, height, 0x24262c);
+    const Image& film = inspection_.film;
+    const float white = whiteScale(film, kNoisy);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const Rgbf& p = film.at(x * film.width / width, y * film.height / height);
+        canvas_.pixel(left_ + x, top_ + y, mixed(kShadow, colorOf(p * white), 0.6));
+      }
     canvas_.clip(left_, top_, width, height);
     int lost = 0;
     for (const bool wanted : {false, true})

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "compare/embed.h"
+#include "inspect/film_preview.h"
 #include "inspect/page_files.h"
 #include "mcmc/integrator_choice.h"
 #include "mcmc/path_vertices.h"
@@ -168,6 +169,9 @@ json inspectionJson(const Scene& scene, const Inspection& inspection, const Opti
   }
   for (const ProposalKind& kind : inspection.kinds)
     kinds.push_back(kindJson(kind, inspection.model.dimension, form));
+  json film{{"width", inspection.film.width}, {"height", inspection.film.height}};
+  if (form == ArrayForm::kBase64)
+    film["pixels"] = base64Srgb(inspection.film, whiteScale(inspection.film, kNoisy));
   return {{"scene", std::filesystem::path(scene.file).filename().string()},
           {"pixel", {inspection.pixelX, inspection.pixelY}},
           {"width", scene.film.width},
@@ -177,6 +181,7 @@ json inspectionJson(const Scene& scene, const Inspection& inspection, const Opti
           {"options", optionText(options)},
           {"path", pathJson(scene, inspection, settings)},
           {"model", modelJson(inspection.model, inspection.path.moving)},
+          {"film", film},
           {"pairs", pairs},
           {"kinds", kinds}};
 }
