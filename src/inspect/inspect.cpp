@@ -99,7 +99,29 @@ void tracePairs(const Scene& scene, const InspectSettings& settings, Inspection&
   }
 }
 
-void choosePath(const SceneTarget& target, KernelMixture& kernels, const OptionSet& options,
+// In edges.
+struct PathLengths {
+  int shortest = 1, longest = 1;
+  int usual = 1;  // the shortest that chains see where shorter ones are left to path tracing
+};
+
+PathLengths lengthsOf(const OptionSet& options, const InspectSettings& settings) {
+  PathLengths lengths{options.integer("minDepth"), maxPathLength(options), 1};
+  if (settings.choice == PathChoice::kGiven) {
+    lengths.longest = std::max(lengths.longest, settings.given.length());
+    lengths.shortest = std::min(lengths.shortest, settings.given.length());
+  }
+  if (lengths.shortest > lengths.longest)
+    throw InspectError(
+        fmt::format("minDepth {} is above maxDepth {}: there are no paths to look at",
+                    lengths.shortest, lengths.longest));
+  const bool split = options.integer("directSamples") != 0;
+  lengths.usual = std::max(lengths.shortest, split ? DirectLighting::kLongest + 1 : 1);
+  if (lengths.usual > lengths.longest) lengths.usual = lengths.shortest;
+  return lengths;
+}
+
+void choosePath(const SceneTarget& target, KernelMixture& kernels, const PathLengths& lengths,
                 const InspectSettings& settings, Inspection& result) {
   Path& path = result.path;
   if (settings.choice == PathChoice::kGiven) {
@@ -109,21 +131,14 @@ void choosePath(const SceneTarget& target, KernelMixture& kernels, const OptionS
       throw InspectError("--replay: in this scene that path carries no light");
     return;
   }
-  const int shortest = options.integer("minDepth");
-  // Paths of one and two edges are usually left to path tracing: chains see the longer ones.
-  const int usual = options.integer("directSamples") == 0
-                        ? shortest
-                        : std::max(shortest, DirectLighting::kLongest + 1);
-  for (const int length : {usual, shortest}) {
-    if (length <= target.maxLength() &&
-        findPath(target, kernels, length, settings, path, result.search))
+  for (const int length : {lengths.usual, lengths.shortest})
+    if (findPath(target, kernels, length, settings, path, result.search) ||
+        (settings.stop && *settings.stop))
       return;
-    if (settings.stop && *settings.stop) return;
-  }
   throw DarkPixel(fmt::format(
       "no light arrives at pixel {},{}: of {} samples through it, with paths of {} to {} edges, "
       "none contributes",
-      settings.pixelX, settings.pixelY, result.search.samples, shortest, target.maxLength()));
+      settings.pixelX, settings.pixelY, result.search.samples, lengths.shortest, lengths.longest));
 }
 
 }  // namespace
@@ -144,25 +159,28 @@ void checkPairText(const std::string& text) {
 Inspection inspect(const Scene& scene, const MetropolisMethod& method, const OptionSet& options,
                    const InspectSettings& settings) {
   if (!settings.pair.empty()) checkPairText(settings.pair);
-  int maxLength = maxPathLength(options);
-  if (settings.choice == PathChoice::kGiven)
-    maxLength = std::max(maxLength, settings.given.length());
-  const int minLength = std::min(options.integer("minDepth"), maxLength);
+  const PathLengths lengths = lengthsOf(options, settings);
+  const int maxLength = lengths.longest;
   const ImportanceMap everywhere;
   const SceneTarget target(scene, maxLength, everywhere);
-  TechniqueDistribution techniques(minLength, maxLength);
+  TechniqueDistribution techniques(lengths.shortest, maxLength);
   if (options.string("largeStep") != "bidirectional") {
-    const Bootstrap bootstrap(scene, minLength, maxLength, kTechniqueSamples, settings.seed,
+    const Bootstrap bootstrap(scene, lengths.shortest, maxLength, kTechniqueSamples, settings.seed,
                               settings.threads);
     const std::vector<double>& weights = bootstrap.techniqueLuminance();
     techniques.setWeights(weights, std::vector<bool>(weights.size(), true));
   }
-  KernelMixture kernels = makeKernels(method, target, techniques, options, minLength);
+  const auto kernelsFrom = [&](int minLength) {
+    return makeKernels(method, target, techniques, options, minLength);
+  };
+  KernelMixture kernels = kernelsFrom(lengths.usual);
 
   Inspection result(maxLength);
   const auto stopped = [&] { return settings.stop && *settings.stop; };
-  choosePath(target, kernels, options, settings, result);
+  choosePath(target, kernels, lengths, settings, result);
   if ((result.interrupted = stopped())) return result;
+  // Large steps propose what the chain of such a path would see.
+  if (result.path.technique.length() < lengths.usual) kernels = kernelsFrom(lengths.shortest);
   result.pixelX = pixelAt(result.path.filmX, scene.film.width);
   result.pixelY = pixelAt(result.path.filmY, scene.film.height);
   result.model = localModel(scene, result.path, hamiltonianSettings(options));

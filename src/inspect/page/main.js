@@ -10,15 +10,25 @@ const KIND_TEXT = {
   "hessian-hamiltonian": "Drawn from the Gaussian that gradient and Hessian give: short where the target is curved, as long as the prior allows where it is flat.",
 };
 
+// What a coordinate decides, by the layout of primary samples: the camera's come first.
+function meaning(name) {
+  if (name === "time") return "time";
+  const { s, t, vertices } = data.path, k = Number(name.slice(1)) >> 1, camera = t >= 2 ? t - 1 : 0;
+  if (k < camera) return k === 0 ? "film position" : `scattering at vertex ${k}, ${vertices[k]}`;
+  const light = k - camera;
+  if (s === 1) return "point on the light";
+  if (light < 2) return `the ray that leaves the light, ${light ? "last" : "first"} two numbers`;
+  const vertex = vertices.length - light;
+  return `scattering at vertex ${vertex}, ${vertices[vertex]}`;
+}
+
 function pairText(pair) {
-  const n = model.eigen.length, rank = (name) => {
+  const rank = (name) => {
     const k = Number(name.slice(1));
-    return k === 1 ? "strongest" : k === n ? "weakest" : `number ${k}`;
+    return k === model.eigen.length ? "weakest" : ["strongest", "second", "third", "fourth"][k - 1] || `${k}th`;
   };
-  const what = { u0: "film x", u1: "film y" };
-  if (pair.x[0] === "e") return `${pair.x}, ${pair.y}: ${rank(pair.x)} and ${rank(pair.y)}`;
-  const named = [pair.x, pair.y].map((name) => what[name]).filter(Boolean);
-  return `${pair.x}, ${pair.y}${data.path.t >= 2 && named.length === 2 ? ": the film position" : ""}`;
+  const named = pair.x[0] === "e" ? [rank(pair.x), rank(pair.y)] : [meaning(pair.x), meaning(pair.y)];
+  return `${pair.x}, ${pair.y}: ${[...new Set(named)].join(" and ")}`;
 }
 
 function filmPicture() {
