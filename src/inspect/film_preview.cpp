@@ -34,8 +34,9 @@ Image previewFilm(const Scene& scene, int maxLength, std::uint64_t seed, int thr
     BidirectionalSampler sampler(std::min(maxLength, kMostEdges));
     Random random(seed, kStream, static_cast<std::uint64_t>(row));
     for (int i = 0; i < image.width * kSamples && !(stop && *stop); ++i) {
+      const int column = i / kSamples;
       const float x =
-          (static_cast<float>(i / kSamples) + random.uniform()) / static_cast<float>(image.width);
+          (static_cast<float>(column) + random.uniform()) / static_cast<float>(image.width);
       const float y =
           (static_cast<float>(row) + random.uniform()) / static_cast<float>(image.height);
       sampler.sample(

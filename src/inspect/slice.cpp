@@ -9,7 +9,7 @@
 namespace h2mc {
 
 SliceCell compareTopology(const Path& path, const Path& other) {
-  const auto [s, t] = path.technique;
+  const int s = path.technique.s, t = path.technique.t;
   if (!(path.technique == other.technique) || path.escaped != other.escaped ||
       path.lightIndex != other.lightIndex)
     return SliceCell::kOtherTopology;

@@ -2,63 +2,32 @@
 """The page of h2mc compare in a browser: headless Chromium, driven by Selenium. Skipped without."""
 
 import json
-import os
-import shutil
 import struct
-import sys
 
+import _browser
 import _h2mc
 
-SYSTEM_PYTHON = "/usr/bin/python3"  # where Debian's packages are seen
 try:
-    from selenium import webdriver
     from selenium.webdriver.common.action_chains import ActionChains
-    from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
-    DRIVER = shutil.which("chromedriver")
 except ImportError:
-    DRIVER = None
-    if os.path.exists(SYSTEM_PYTHON) and os.path.realpath(sys.executable) != os.path.realpath(SYSTEM_PYTHON):
-        os.execv(SYSTEM_PYTHON, [SYSTEM_PYTHON, *sys.argv])
+    pass  # _browser then says so
 
 
-def browser(width=1440, height=900):
-    options = webdriver.ChromeOptions()
-    for flag in ("--headless", "--no-sandbox", "--disable-gpu", "--no-first-run",
-                 "--disable-background-networking", "--disable-component-update", "--disable-sync",
-                 "--disable-dev-shm-usage", f"--window-size={width},{height}"):
-        options.add_argument(flag)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    return webdriver.Chrome(service=webdriver.chrome.service.Service(DRIVER), options=options)
-
-
-class Page(_h2mc.Test):
+class Page(_browser.Page):
     def setUp(self):
         super().setUp()
         self.write("box.xml", _h2mc.SCENE)
         self.write("dim.xml", _h2mc.SCENE.replace('name="radiance" value="4"', 'name="radiance" value="0.01"'))
         self.succeeds("compare", "box.xml", "dim.xml", "-i", "path,bdpt,path:maxDepth=2", "-m", "2,4,16", "-k", 2,
                       "-r", "auto", "--reference-time", 0.3, "--width", 48, "-o", "out")
-        self.driver = browser()
-        self.addCleanup(self.driver.quit)
-        self.driver.get("file://" + self.path("out/index.html"))
-
-    def all(self, selector):
-        return self.driver.find_elements(By.CSS_SELECTOR, selector)
-
-    def one(self, selector):
-        return self.driver.find_element(By.CSS_SELECTOR, selector)
-
-    def key(self, key):
-        self.one("body").send_keys(key)
+        self.open("out/index.html")
 
     def caption(self):
         return self.one(".view figcaption b").text
 
     def canvas_sum(self):
-        return self.driver.execute_script(
-            "const c = document.querySelector('.view canvas');"
-            "return c.getContext('2d').getImageData(0, 0, c.width, c.height).data.reduce((a, b) => a + b, 0)")
+        return super().canvas_sum(".view canvas")
 
     def pixel_of(self, name, x, y):
         """From the EXR file itself."""
@@ -164,14 +133,8 @@ class Page(_h2mc.Test):
         self.assertIn(" s", self.one("#ranking th:nth-child(3)").text)
         self.key(Keys.ARROW_RIGHT)
         self.assertEqual(self.all("#scenes button")[0].get_attribute("aria-selected"), "true")
-        self.assertEqual([entry["message"] for entry in self.driver.get_log("browser")
-                          if entry["level"] == "SEVERE"], [])
-
-        # On a phone nothing sticks out.
-        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
-                                    {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
-        self.driver.refresh()
-        self.assertLessEqual(self.driver.execute_script("return document.documentElement.scrollWidth"), 390)
+        self.no_errors()
+        self.fits_a_phone()
 
 
 def read_pixels(path, width, height):
@@ -207,8 +170,4 @@ def read_pixels(path, width, height):
 
 
 if __name__ == "__main__":
-    if not DRIVER:
-        print("SKIPPED: the page of h2mc compare was not tried in a browser: this needs the Debian "
-              "packages chromium, chromium-driver and python3-selenium", file=sys.stderr)
-        sys.exit(77)
-    _h2mc.main()
+    _browser.main("compare")

@@ -212,6 +212,51 @@ TEST_F(Inspect, TheLargestIsLargerThanAState) {
   EXPECT_EQ(given.pixelX, 5);
 }
 
+// Their film position is no coordinate, and the lens perturbation has none to move.
+TEST_F(Inspect, PathsThatTheLightSubpathEnds) {
+  BidirectionalSampler sampler(3);
+  Random random(1, 2, 3);
+  while (settings_.choice != PathChoice::kGiven)
+    sampler.sample(scene_, random, -1, -1, 3, [&](const BidirectionalSampler::Connection& c) {
+      if (c.technique.t != 1) return;
+      settings_.choice = PathChoice::kGiven;
+      settings_.given = c.technique;
+      settings_.givenSample = sampler.primarySample(c.technique);
+    });
+  const Inspection result = run();
+  EXPECT_EQ(result.path.technique.t, 1);
+  EXPECT_EQ(result.kinds.size(), 3u);
+  for (const ProposalKind& kind : result.kinds) {
+    EXPECT_NE(kind.name, "lens");
+    for (const Proposal& p : kind.proposals) {
+      if (p.acceptance > 0) {
+        EXPECT_GE(p.filmX, 0);
+        EXPECT_LT(p.filmX, 1);
+      }
+    }
+  }
+  EXPECT_GT(drawPair(scene_, result, result.pairs.front(), result.pairs.front().close).width, 100);
+}
+
+TEST_F(Inspect, ComparesTopologies) {
+  const Inspection result = run();
+  Path other = result.path;
+  EXPECT_EQ(compareTopology(result.path, other), SliceCell::kSame);
+  const auto last = static_cast<std::size_t>(result.path.technique.t) - 1;
+  ASSERT_GE(last, 1u);
+  other.camera[1].id.primitive += 1;
+  EXPECT_EQ(compareTopology(result.path, other), SliceCell::kOtherPrimitive);
+  other.camera[1].id.shape += 1;
+  EXPECT_EQ(compareTopology(result.path, other), SliceCell::kOtherTopology);
+  other = result.path;
+  other.lightIndex += 1;
+  EXPECT_EQ(compareTopology(result.path, other), SliceCell::kOtherTopology);
+  // A subpath's last vertex scatters through no lobe of its own.
+  other = result.path;
+  other.camera[last].lobe.lobe += 1;
+  EXPECT_EQ(compareTopology(result.path, other), SliceCell::kSame);
+}
+
 TEST_F(Inspect, WithoutDerivatives) {
   const std::string length = std::to_string(H2MC_DERIVATIVE_EDGES + 1);
   options_.set("minDepth", length);

@@ -1,0 +1,68 @@
+"""What the tests of pages share: headless Chromium, driven by Selenium. Skipped without."""
+
+import os
+import shutil
+import sys
+
+import _h2mc
+
+SYSTEM_PYTHON = "/usr/bin/python3"  # where Debian's packages are seen
+try:
+    from selenium import webdriver
+    from selenium.webdriver.common.by import By
+    DRIVER = shutil.which("chromedriver")
+except ImportError:
+    DRIVER = None
+    if os.path.exists(SYSTEM_PYTHON) and os.path.realpath(sys.executable) != os.path.realpath(SYSTEM_PYTHON):
+        os.execv(SYSTEM_PYTHON, [SYSTEM_PYTHON, *sys.argv])
+
+
+def browser(width=1440, height=900):
+    options = webdriver.ChromeOptions()
+    for flag in ("--headless", "--no-sandbox", "--disable-gpu", "--no-first-run",
+                 "--disable-background-networking", "--disable-component-update", "--disable-sync",
+                 "--disable-dev-shm-usage", f"--window-size={width},{height}"):
+        options.add_argument(flag)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    return webdriver.Chrome(service=webdriver.chrome.service.Service(DRIVER), options=options)
+
+
+class Page(_h2mc.Test):
+    def open(self, name):
+        """A page in the test's folder."""
+        self.driver = browser()
+        self.addCleanup(self.driver.quit)
+        self.driver.get("file://" + self.path(name))
+
+    def all(self, selector):
+        return self.driver.find_elements(By.CSS_SELECTOR, selector)
+
+    def one(self, selector):
+        return self.driver.find_element(By.CSS_SELECTOR, selector)
+
+    def key(self, key):
+        self.one("body").send_keys(key)
+
+    def canvas_sum(self, selector):
+        return self.driver.execute_script(
+            f"const c = document.querySelector('{selector}');"
+            "return c.getContext('2d').getImageData(0, 0, c.width, c.height).data.reduce((a, b) => a + b, 0)")
+
+    def no_errors(self):
+        self.assertEqual([entry["message"] for entry in self.driver.get_log("browser")
+                          if entry["level"] == "SEVERE"], [])
+
+    def fits_a_phone(self):
+        """Nothing sticks out; what was chosen is forgotten."""
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                    {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
+        self.driver.refresh()
+        self.assertLessEqual(self.driver.execute_script("return document.documentElement.scrollWidth"), 390)
+
+
+def main(page):
+    if not DRIVER:
+        print(f"SKIPPED: the page of h2mc {page} was not tried in a browser: this needs the Debian "
+              "packages chromium, chromium-driver and python3-selenium", file=sys.stderr)
+        sys.exit(77)
+    _h2mc.main()
