@@ -184,7 +184,7 @@ void addInspectCommand(CLI::App& app, Run& run_) {
   command
       ->add_option("--resolution", settings.resolution,
                    "Cells along a slice's edge; odd ones have the path in the middle of one")
-      ->check(CLI::Range(9, 513))
+      ->check(CLI::Range(9, 257))
       ->capture_default_str();
   command->add_option("--proposals", settings.proposals, "Proposals of each mutation")
       ->check(CLI::Range(1, 100000))

@@ -4,10 +4,10 @@ const percent = (v) => `${short(100 * v)} %`;
 const plots = [];  // what is redrawn: { canvas, draw }
 
 const KIND_TEXT = {
-  large: "Starts afresh, wherever the state is. Nearly always rejected from a bright and narrow place, but the only way out of it.",
+  large: "Starts afresh, wherever the state is. Seldom accepted where the target is large, but the only way to somewhere quite different.",
   lens: "Moves the film position, follows narrow lobes, and reconnects as soon as it can: a move along what leaves the path intact, by its geometry.",
-  isotropic: "The same small step in all coordinates. One narrow direction is enough for nearly all of them to be rejected.",
-  "hessian-hamiltonian": "Drawn from the Gaussian that gradient and Hessian give: short where the target is curved, as long as the prior allows where it is flat.",
+  isotropic: "The same small step in all coordinates. Where the target is narrow in only one direction, nearly all of them miss it.",
+  "hessian-hamiltonian": !model.available ? "There are no derivatives at this path: drawn from the prior, a round Gaussian." : "Drawn from the Gaussian that gradient and Hessian give: short where the target is curved, as long as the prior allows where it is flat.",
 };
 
 // What a coordinate decides, by the layout of primary samples: the camera's come first.
