@@ -139,7 +139,7 @@ def box(mesh, x, y, z):
 
 
 def street():
-    markings, house, windows, posts, lamps = Mesh(), Mesh(), Mesh(), Mesh(), Mesh()
+    markings, house, windows, posts = Mesh(), Mesh(), Mesh(), Mesh()
     for k in range(-6, 5):
         x = 3 * k - 0.4
         markings.grid([[(x, 0.004, -1.55), (x + 1.6, 0.004, -1.55)], [(x, 0.004, -1.68), (x + 1.6, 0.004, -1.68)]])
@@ -158,13 +158,11 @@ def street():
         arm = [(x, 0, z), (x, 3.2, z), (x, 4.3, z + 0.1 * out), (x, 4.75, z + 0.5 * out), (x, 4.8, z + 1.1 * out)]
         if z < 0:
             posts.merge(tube(curve(arm, 8), 0.05, 12))
-        # A lens under the arm's end.
-        lamps.merge(blob(x, 4.72, z + 1.1 * out, (0.22, 0.06, 0.11)))
+        posts.merge(blob(x, 4.75, z + 1.1 * out, (0.17, 0.07, 0.17)))     # above the lamp
     markings.write(__file__, "markings.ply")
     house.write(__file__, "house.ply")
     windows.write(__file__, "windows.ply")
     posts.write(__file__, "posts.ply")
-    lamps.write(__file__, "lamps.ply")
 
 
 if __name__ == "__main__":
