@@ -140,19 +140,19 @@ def box(mesh, x, y, z):
 
 def street():
     markings, house, windows, posts = Mesh(), Mesh(), Mesh(), Mesh()
-    for k in range(-6, 5):
+    for k in range(-4, 4):
         x = 3 * k - 0.4
         markings.grid([[(x, 0.004, -1.55), (x + 1.6, 0.004, -1.55)], [(x, 0.004, -1.68), (x + 1.6, 0.004, -1.68)]])
-    box(house, (-24, 24), (-0.1, 0.14), (-9, -5.4))                    # the pavement
-    box(house, (-24, 24), (0, 14), (-10, -8.5))
-    for k in range(-8, 8):
+    box(house, (-12, 12), (-0.1, 0.14), (-9, -5.4))                    # the pavement
+    box(house, (-12, 12), (0, 6.5), (-10, -8.5))
+    for k in range(-4, 5):
         x = 2.6 * k + 0.3
         box(house, (x - 1.35, x - 1.1), (0.1, 6), (-8.6, -8.35))       # between shop windows
         if k % 3:                                                      # the others are dark
             plate(windows, x - 0.8, x + 0.8, 0.75, 2.5, -8.48)
         box(house, (x - 0.03, x + 0.03), (0.7, 2.55), (-8.49, -8.44))
         box(house, (x - 0.85, x + 0.85), (1.95, 2.0), (-8.49, -8.44))
-    box(house, (-24, 24), (2.75, 2.95), (-8.6, -8.2))
+    box(house, (-12, 12), (2.75, 2.95), (-8.6, -8.2))
     for x, z in ((-9.5, -5.9), (-2.4, -5.9), (4.2, -5.9), (-5.5, 4.6), (0.4, 5.4), (6.5, 4.6)):
         out = -1 if z > 0 else 1
         arm = [(x, 0, z), (x, 3.2, z), (x, 4.3, z + 0.1 * out), (x, 4.75, z + 0.5 * out), (x, 4.8, z + 1.1 * out)]
