@@ -300,3 +300,41 @@ def curve(knots, steps):
                        + (3 * b[m] - 3 * c[m] + d[m] - a[m]) * t ** 3) for m in range(len(b))))
     points.append(tuple(knots[-1]))
     return points
+
+
+def smooth(profile, steps):
+    """A Catmull-Rom curve through (radius, height) pairs, for revolve."""
+    return [(max(r, 0.0), y) for r, y, _ in curve([(r, y, 0.0) for r, y in profile], steps)]
+
+
+def block(x, y, z, radius=0.008, steps=3):
+    """A box with rounded edges between pairs of bounds."""
+    return rounded_box((x[1] - x[0], y[1] - y[0], z[1] - z[0]), radius, steps).moved(
+        ((x[0] + x[1]) / 2, (y[0] + y[1]) / 2, (z[0] + z[1]) / 2))
+
+
+def tiles(corner, right, up, columns, rows, size, gap, bevel, height, lean, chosen=lambda i, j: True):
+    """Tiles on the plane through corner along right and up, those of chosen(column, row). Their edges fall
+    off over bevel by height, and the normals lean outwards there."""
+    mesh, out = Mesh(), cross(right, up)
+    for j in range(rows):
+        for i in range(columns):
+            if not chosen(i, j):
+                continue
+            first = len(mesh.vertices)
+            for inset, above, tilt in ((gap / 2, 0.0, lean), (gap / 2 + bevel, height, 0.0)):
+                for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)):
+                    x = (i + a) * size[0] + (inset if a == 0 else -inset)
+                    y = (j + b) * size[1] + (inset if b == 0 else -inset)
+                    point = add(corner, add(add(mul(right, x), mul(up, y)), mul(out, above)))
+                    normal = unit(add(out, add(mul(right, tilt * (2 * a - 1)), mul(up, tilt * (2 * b - 1)))))
+                    mesh.vertices.append((*point, *normal))
+            mesh.faces.append((first + 4, first + 5, first + 6, first + 7))
+            for k in range(4):
+                mesh.faces.append((first + k, first + (k + 1) % 4, first + 4 + (k + 1) % 4, first + 4 + k))
+    return mesh
+
+
+def plane(point, right, up):
+    """A parallelogram; its outside is where right x up points."""
+    return Mesh().grid([[point, add(point, right)], [add(point, up), add(add(point, right), up)]])

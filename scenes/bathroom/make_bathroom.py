@@ -6,30 +6,10 @@ import os
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from geometry import (Mesh, add, cross, curve, mix, mul, revolve, ring, rounded_box, smoothstep, tube,  # noqa: E402
-                      unit)
+from geometry import (Mesh, block, curve, mix, plane, revolve, ring, rounded_box, smooth, smoothstep,  # noqa: E402
+                      tiles, tube)
 
 LEFT, RIGHT, BACK, FRONT, TOP = -1.3, 1.3, -1.2, 2.3, 2.45
-
-
-def tiles(mesh, corner, right, up, columns, rows, size, gap, chosen, bevel=0.008):
-    """Tiles with rounded edges on the plane through corner along right and up."""
-    out = cross(right, up)
-    for j in range(rows):
-        for i in range(columns):
-            if not chosen(i, j):
-                continue
-            first = len(mesh.vertices)
-            for inset, height, lean in ((gap / 2, 0.0, 1.5), (gap / 2 + bevel, 0.0035, 0.0)):
-                for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)):
-                    x = (i + a) * size[0] + (inset if a == 0 else -inset)
-                    y = (j + b) * size[1] + (inset if b == 0 else -inset)
-                    p = add(corner, add(add(mul(right, x), mul(up, y)), mul(out, height)))
-                    n = unit(add(out, add(mul(right, lean * (2 * a - 1)), mul(up, lean * (2 * b - 1)))))
-                    mesh.vertices.append((*p, *n))
-            mesh.faces.append((first + 4, first + 5, first + 6, first + 7))
-            for k in range(4):
-                mesh.faces.append((first + k, first + (k + 1) % 4, first + 4 + (k + 1) % 4, first + 4 + k))
 
 
 def walls():
@@ -39,31 +19,19 @@ def walls():
                                   ((RIGHT, 0, BACK), (0, 0, 1), FRONT - BACK)):
         columns = round(length / size[0])
         for mesh, wanted in ((plain, False), (blue, True)):
-            tiles(mesh, corner, right, (0, 1, 0), columns, rows, size, 0.004, lambda i, j: (j == band) == wanted)
-    tiles(floor, (LEFT, 0, FRONT), (1, 0, 0), (0, 0, -1), 9, 12, ((RIGHT - LEFT) / 9, (FRONT - BACK) / 12), 0.005,
-          lambda i, j: True, 0.006)
-
-    def plane(p, u, v):
-        grout.grid([[p, add(p, u)], [add(p, v), add(add(p, u), v)]])
+            mesh.merge(tiles(corner, right, (0, 1, 0), columns, rows, size, 0.004, 0.008, 0.0035, 1.5,
+                             lambda i, j: (j == band) == wanted))
+    floor.merge(tiles((LEFT, 0, FRONT), (1, 0, 0), (0, 0, -1), 9, 12, ((RIGHT - LEFT) / 9, (FRONT - BACK) / 12), 0.005,
+                      0.006, 0.0035, 1.5))
     wide, deep = RIGHT - LEFT, FRONT - BACK
-    plane((LEFT, 0, BACK), (wide, 0, 0), (0, TOP, 0))
-    plane((LEFT, 0, FRONT), (0, 0, -deep), (0, TOP, 0))
-    plane((RIGHT, 0, BACK), (0, 0, deep), (0, TOP, 0))
-    plane((RIGHT, 0, FRONT), (-wide, 0, 0), (0, TOP, 0))
-    plane((LEFT, TOP, BACK), (wide, 0, 0), (0, 0, deep))
-    plane((LEFT, 0, FRONT), (wide, 0, 0), (0, 0, -deep))
+    grout.merge(plane((LEFT, 0, BACK), (wide, 0, 0), (0, TOP, 0)))
+    grout.merge(plane((LEFT, 0, FRONT), (0, 0, -deep), (0, TOP, 0)))
+    grout.merge(plane((RIGHT, 0, BACK), (0, 0, deep), (0, TOP, 0)))
+    grout.merge(plane((RIGHT, 0, FRONT), (-wide, 0, 0), (0, TOP, 0)))
+    grout.merge(plane((LEFT, TOP, BACK), (wide, 0, 0), (0, 0, deep)))
+    grout.merge(plane((LEFT, 0, FRONT), (wide, 0, 0), (0, 0, -deep)))
     for mesh, name in ((plain, "tiles.ply"), (blue, "tiles_band.ply"), (floor, "tiles_floor.ply"), (grout, "walls.ply")):
         mesh.write(__file__, name)
-
-
-def box(mesh, x, y, z, radius=0.008, steps=3):
-    """A block between pairs of bounds."""
-    return mesh.merge(rounded_box((x[1] - x[0], y[1] - y[0], z[1] - z[0]), radius, steps)
-                      .moved(((x[0] + x[1]) / 2, (y[0] + y[1]) / 2, (z[0] + z[1]) / 2)))
-
-
-def smooth(points, steps):
-    return [(max(r, 0.0), y) for r, y, _ in curve([(r, y, 0.0) for r, y in points], steps)]
 
 
 def squircle(half, count, p, y, middle):
@@ -76,13 +44,13 @@ def squircle(half, count, p, y, middle):
 
 def washstand(wood, ceramic, chrome):
     x0, x1, z0, z1 = -0.98, 0.08, BACK + 0.01, -0.72
-    box(wood, (x0, x1), (0.12, 0.78), (z0, z1))
+    wood.merge(block((x0, x1), (0.12, 0.78), (z0, z1)))
     for k in range(2):
         a = x0 + 0.02 + k * 0.515
-        box(wood, (a, a + 0.505), (0.15, 0.75), (z1, z1 + 0.02), 0.006)
+        wood.merge(block((a, a + 0.505), (0.15, 0.75), (z1, z1 + 0.02), 0.006))
         chrome.merge(revolve(smooth([(0.0, 0.0), (0.008, 0.0), (0.007, 0.012), (0.015, 0.02), (0.014, 0.028), (0.0, 0.032)], 3), 20)
                      .moved((-0.5 if k == 0 else -0.4, 0.6, z1 + 0.02), (0, 90)))
-    box(ceramic, (x0 - 0.015, x1 + 0.015), (0.78, 0.815), (z0, z1 + 0.025), 0.012, 4)
+    ceramic.merge(block((x0 - 0.015, x1 + 0.015), (0.78, 0.815), (z0, z1 + 0.025), 0.012, 4))
     bowl = smooth([(0.0, 0.0), (0.09, 0.0), (0.15, 0.03), (0.2, 0.1), (0.212, 0.135), (0.207, 0.142), (0.199, 0.135), (0.185, 0.1),
                    (0.135, 0.04), (0.08, 0.02), (0.03, 0.016), (0.0, 0.016)], 4)
     ceramic.merge(revolve(bowl, 64).moved((-0.45, 0.815, -0.94)))

@@ -6,7 +6,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from geometry import Mesh, curve, revolve, ring, rounded_box, spline, tube  # noqa: E402
+from geometry import Mesh, block, curve, revolve, ring, spline, tube  # noqa: E402
 
 LENGTH = 2.15       # half of it
 WIDTH = 0.84        # half of it
@@ -132,27 +132,21 @@ def plate(mesh, x0, x1, y0, y1, z):
     mesh.grid([[(x0, y0, z), (x1, y0, z)], [(x0, y1, z), (x1, y1, z)]])
 
 
-def box(mesh, x, y, z):
-    """A block between the pairs of bounds x, y, z."""
-    size = (x[1] - x[0], y[1] - y[0], z[1] - z[0])
-    mesh.merge(rounded_box(size, 0.02, 2).moved(((x[0] + x[1]) / 2, (y[0] + y[1]) / 2, (z[0] + z[1]) / 2)))
-
-
 def street():
     markings, house, windows, posts = Mesh(), Mesh(), Mesh(), Mesh()
     for k in range(-4, 4):
         x = 3 * k - 0.4
         markings.grid([[(x, 0.004, -1.55), (x + 1.6, 0.004, -1.55)], [(x, 0.004, -1.68), (x + 1.6, 0.004, -1.68)]])
-    box(house, (-12, 12), (-0.1, 0.14), (-9, -5.4))                    # the pavement
-    box(house, (-12, 12), (0, 6.5), (-10, -8.5))
+    house.merge(block((-12, 12), (-0.1, 0.14), (-9, -5.4), 0.02, 2))                    # the pavement
+    house.merge(block((-12, 12), (0, 6.5), (-10, -8.5), 0.02, 2))
     for k in range(-4, 5):
         x = 2.6 * k + 0.3
-        box(house, (x - 1.35, x - 1.1), (0.1, 6), (-8.6, -8.35))       # between shop windows
+        house.merge(block((x - 1.35, x - 1.1), (0.1, 6), (-8.6, -8.35), 0.02, 2))       # between shop windows
         if k % 3:                                                      # the others are dark
             plate(windows, x - 0.8, x + 0.8, 0.75, 2.5, -8.48)
-        box(house, (x - 0.03, x + 0.03), (0.7, 2.55), (-8.49, -8.44))
-        box(house, (x - 0.85, x + 0.85), (1.95, 2.0), (-8.49, -8.44))
-    box(house, (-12, 12), (2.75, 2.95), (-8.6, -8.2))
+        house.merge(block((x - 0.03, x + 0.03), (0.7, 2.55), (-8.49, -8.44), 0.02, 2))
+        house.merge(block((x - 0.85, x + 0.85), (1.95, 2.0), (-8.49, -8.44), 0.02, 2))
+    house.merge(block((-12, 12), (2.75, 2.95), (-8.6, -8.2), 0.02, 2))
     for x, z in ((-9.5, -5.9), (-2.4, -5.9), (4.2, -5.9), (-5.5, 4.6), (0.4, 5.4), (6.5, 4.6)):
         out = -1 if z > 0 else 1
         arm = [(x, 0, z), (x, 3.2, z), (x, 4.3, z + 0.1 * out), (x, 4.75, z + 0.5 * out), (x, 4.8, z + 1.1 * out)]

@@ -6,17 +6,10 @@ import os
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from geometry import Mesh, curve, revolve, rounded_box, spline, tube  # noqa: E402
+from geometry import Mesh, block, curve, plane, revolve, rounded_box, spline, tube  # noqa: E402
 
 DOOR = (0.45, 1.35, 2.05)        # from, to, height of the opening
 AJAR = 38                        # degrees
-
-
-def box(mesh, x, y, z, radius=0.008, steps=3):
-    """A block between pairs of bounds."""
-    size = (x[1] - x[0], y[1] - y[0], z[1] - z[0])
-    return mesh.merge(rounded_box(size, radius, steps)
-                      .moved(((x[0] + x[1]) / 2, (y[0] + y[1]) / 2, (z[0] + z[1]) / 2)))
 
 
 def teapot():
@@ -53,41 +46,37 @@ def room():
     left, right, bottom, top = -2.0, 1.9, 0.0, 2.5
     back, front = -1.9, 2.8
 
-    def plane(p, u, v):
-        walls.grid([[p, tuple(a + b for a, b in zip(p, u))],
-                    [tuple(a + b for a, b in zip(p, v)), tuple(a + b + c for a, b, c in zip(p, u, v))]])
-
-    plane((left, bottom, front), (0, 0, back - front), (0, top, 0))
-    plane((right, bottom, back), (0, 0, front - back), (0, top, 0))
-    plane((right, bottom, front), (left - right, 0, 0), (0, top, 0))
-    plane((left, top, back), (right - left, 0, 0), (0, 0, front - back))
+    walls.merge(plane((left, bottom, front), (0, 0, back - front), (0, top, 0)))
+    walls.merge(plane((right, bottom, back), (0, 0, front - back), (0, top, 0)))
+    walls.merge(plane((right, bottom, front), (left - right, 0, 0), (0, top, 0)))
+    walls.merge(plane((left, top, back), (right - left, 0, 0), (0, 0, front - back)))
     # The wall with the opening has a thickness.
-    box(walls, (left - 0.3, DOOR[0]), (-0.05, top + 0.2), (back - 0.14, back))
-    box(walls, (DOOR[1], right + 1.9), (-0.05, top + 0.2), (back - 0.14, back))
-    box(walls, (DOOR[0] - 0.05, DOOR[1] + 0.05), (DOOR[2], top + 0.2), (back - 0.14, back))
+    walls.merge(block((left - 0.3, DOOR[0]), (-0.05, top + 0.2), (back - 0.14, back)))
+    walls.merge(block((DOOR[1], right + 1.9), (-0.05, top + 0.2), (back - 0.14, back)))
+    walls.merge(block((DOOR[0] - 0.05, DOOR[1] + 0.05), (DOOR[2], top + 0.2), (back - 0.14, back)))
     # The corridor behind it.
     far, end0, end1 = back - 1.6, -1.2, 3.4
-    plane((end0, bottom, far), (end1 - end0, 0, 0), (0, top, 0))
-    plane((end0, bottom, back), (0, 0, far - back), (0, top, 0))
-    plane((end1, bottom, far), (0, 0, back - far), (0, top, 0))
-    plane((end0, top, far), (end1 - end0, 0, 0), (0, 0, back - far))
+    walls.merge(plane((end0, bottom, far), (end1 - end0, 0, 0), (0, top, 0)))
+    walls.merge(plane((end0, bottom, back), (0, 0, far - back), (0, top, 0)))
+    walls.merge(plane((end1, bottom, far), (0, 0, back - far), (0, top, 0)))
+    walls.merge(plane((end0, top, far), (end1 - end0, 0, 0), (0, 0, back - far)))
     walls.write(__file__, "walls.ply")
 
     wood = Mesh()
     for x in (DOOR[0] - 0.09, DOOR[1]):
-        box(wood, (x, x + 0.09), (0, DOOR[2] + 0.09), (back - 0.02, back + 0.025))
-    box(wood, (DOOR[0] - 0.09, DOOR[1] + 0.09), (DOOR[2], DOOR[2] + 0.09), (back - 0.02, back + 0.026))
+        wood.merge(block((x, x + 0.09), (0, DOOR[2] + 0.09), (back - 0.02, back + 0.025)))
+    wood.merge(block((DOOR[0] - 0.09, DOOR[1] + 0.09), (DOOR[2], DOOR[2] + 0.09), (back - 0.02, back + 0.026)))
     for x0, x1 in ((left, DOOR[0] - 0.09), (DOOR[1] + 0.09, right)):
-        box(wood, (x0, x1), (0, 0.09), (back - 0.01, back + 0.018))
-    box(wood, (left - 0.01, left + 0.018), (0, 0.09), (back, front))
-    box(wood, (DOOR[0] - 0.01, DOOR[0] + 0.03), (0, DOOR[2]), (back - 0.1, back + 0.02))  # closes the hinge's gap
+        wood.merge(block((x0, x1), (0, 0.09), (back - 0.01, back + 0.018)))
+    wood.merge(block((left - 0.01, left + 0.018), (0, 0.09), (back, front)))
+    wood.merge(block((DOOR[0] - 0.01, DOOR[0] + 0.03), (0, DOOR[2]), (back - 0.1, back + 0.02)))  # closes the hinge's gap
     # A door with four panels, turned about its left edge.
     leaf, handle = Mesh(), Mesh()
     width = DOOR[1] - DOOR[0] - 0.01
-    box(leaf, (0, width), (0.005, DOOR[2] - 0.01), (-0.04, 0.0))
+    leaf.merge(block((0, width), (0.005, DOOR[2] - 0.01), (-0.04, 0.0)))
     for x in (0.1, width / 2 + 0.04):
         for y0, y1 in ((0.2, 0.85), (1.05, 1.85)):
-            box(leaf, (x, x + width / 2 - 0.14), (y0, y1), (-0.055, 0.015), 0.02, 4)
+            leaf.merge(block((x, x + width / 2 - 0.14), (y0, y1), (-0.055, 0.015), 0.02, 4))
     for side in (-1, 1):
         z = -0.02 + side * 0.02
         handle.merge(tube([(width - 0.07, 1.0, z), (width - 0.07, 1.0, z + side * 0.05)], 0.009, 14))
@@ -101,8 +90,8 @@ def room():
 
 def furniture():
     table = Mesh()
-    box(table, (-1.25, 0.35), (0.71, 0.75), (-1.15, -0.2), 0.012, 4)
-    box(table, (-1.15, 0.25), (0.6, 0.71), (-1.05, -0.3))
+    table.merge(block((-1.25, 0.35), (0.71, 0.75), (-1.15, -0.2), 0.012, 4))
+    table.merge(block((-1.15, 0.25), (0.6, 0.71), (-1.05, -0.3)))
     for x in (-1.17, 0.27):
         for z in (-1.07, -0.28):
             table.merge(revolve([(0.0, 0.0), (0.02, 0.0), (0.024, 0.05), (0.03, 0.3), (0.042, 0.55), (0.045, 0.62), (0.0, 0.62)],
@@ -110,7 +99,7 @@ def furniture():
     table.write(__file__, "table.ply")
     frame, picture = Mesh(), Mesh()
     for x0, x1, y0, y1 in ((-1.25, -0.25, 1.9, 1.96), (-1.25, -0.25, 1.24, 1.3), (-1.25, -1.19, 1.24, 1.96), (-0.31, -0.25, 1.24, 1.96)):
-        box(frame, (x0, x1), (y0, y1), (-1.91, -1.865), 0.012, 4)
+        frame.merge(block((x0, x1), (y0, y1), (-1.91, -1.865), 0.012, 4))
     picture.grid([[(-1.2, 1.28, -1.885), (-0.3, 1.28, -1.885)], [(-1.2, 1.92, -1.885), (-0.3, 1.92, -1.885)]])
     frame.write(__file__, "frame.ply")
     picture.write(__file__, "picture.ply")

@@ -6,7 +6,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from geometry import Mesh, add, cross, curve, mul, ring, rounded_box, tube, unit  # noqa: E402
+from geometry import Mesh, curve, plane, ring, rounded_box, tiles, tube, unit  # noqa: E402
 
 LEFT, RIGHT, BACK, FRONT, DEPTH, RIM = -2.0, 2.0, -3.0, 2.4, 1.4, 0.16
 
@@ -38,47 +38,27 @@ def water():
     return Mesh().grid(rows, normals)
 
 
-def tiles(mesh, corner, right, up, columns, rows, size, chosen, gap=0.012, bevel=0.01):
-    """Square tiles with rounded edges on the plane through corner along right and up."""
-    out = cross(right, up)
-    for j in range(rows):
-        for i in range(columns):
-            if not chosen(i, j):
-                continue
-            first = len(mesh.vertices)
-            for inset, height, lean in ((gap / 2, 0.0, 1.0), (gap / 2 + bevel, 0.006, 0.0)):
-                for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)):
-                    x = (i + a) * size + (inset if a == 0 else -inset)
-                    y = (j + b) * size + (inset if b == 0 else -inset)
-                    mesh.vertices.append((*add(corner, add(add(mul(right, x), mul(up, y)), mul(out, height))),
-                                          *unit(add(out, add(mul(right, lean * (2 * a - 1)), mul(up, lean * (2 * b - 1)))))))
-            mesh.faces.append((first + 4, first + 5, first + 6, first + 7))
-            for k in range(4):
-                mesh.faces.append((first + k, first + (k + 1) % 4, first + 4 + (k + 1) % 4, first + 4 + k))
-
-
 def basin():
     light, dark, grout = Mesh(), Mesh(), Mesh()
-    size, high = 0.2, 7
+    size, high, shape = 0.2, 7, (0.012, 0.01, 0.006, 1.0)
     wide, deep = round((RIGHT - LEFT) / size), round((FRONT - BACK) / size)
 
     def line(i, j):
         """Two dark lines along the bottom."""
         return i in (5, 14) and 2 <= j < deep - 2 or j in (2, deep - 3) and i in (4, 6, 13, 15)
     for mesh, wanted in ((light, False), (dark, True)):
-        tiles(mesh, (LEFT, -DEPTH, FRONT), (1, 0, 0), (0, 0, -1), wide, deep, size, lambda i, j: line(i, j) == wanted)
+        mesh.merge(tiles((LEFT, -DEPTH, FRONT), (1, 0, 0), (0, 0, -1), wide, deep, (size, size), *shape,
+                         lambda i, j: line(i, j) == wanted))
         for corner, right, columns in (((LEFT, -DEPTH, BACK), (1, 0, 0), wide), ((LEFT, -DEPTH, FRONT), (0, 0, -1), deep),
                                        ((RIGHT, -DEPTH, BACK), (0, 0, 1), deep), ((RIGHT, -DEPTH, FRONT), (-1, 0, 0), wide)):
-            tiles(mesh, corner, right, (0, 1, 0), columns, high, size, lambda i, j: (j == high - 1) == wanted)
-
-    def plane(p, u, v):
-        grout.grid([[p, add(p, u)], [add(p, v), add(add(p, u), v)]])
+            mesh.merge(tiles(corner, right, (0, 1, 0), columns, high, (size, size), *shape,
+                             lambda i, j: (j == high - 1) == wanted))
     x, z, y = RIGHT - LEFT, FRONT - BACK, DEPTH + RIM - 0.01
-    plane((LEFT, -DEPTH, FRONT), (x, 0, 0), (0, 0, -z))
-    plane((LEFT, -DEPTH, BACK), (x, 0, 0), (0, y, 0))
-    plane((LEFT, -DEPTH, FRONT), (0, 0, -z), (0, y, 0))
-    plane((RIGHT, -DEPTH, BACK), (0, 0, z), (0, y, 0))
-    plane((RIGHT, -DEPTH, FRONT), (-x, 0, 0), (0, y, 0))
+    grout.merge(plane((LEFT, -DEPTH, FRONT), (x, 0, 0), (0, 0, -z)))
+    grout.merge(plane((LEFT, -DEPTH, BACK), (x, 0, 0), (0, y, 0)))
+    grout.merge(plane((LEFT, -DEPTH, FRONT), (0, 0, -z), (0, y, 0)))
+    grout.merge(plane((RIGHT, -DEPTH, BACK), (0, 0, z), (0, y, 0)))
+    grout.merge(plane((RIGHT, -DEPTH, FRONT), (-x, 0, 0), (0, y, 0)))
     light.write(__file__, "tiles.ply")
     dark.write(__file__, "tiles_dark.ply")
     grout.write(__file__, "grout.ply")
