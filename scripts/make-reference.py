@@ -38,7 +38,8 @@ def main():
     parser.add_argument("--width", type=int, default=128)
     parser.add_argument("--height", type=int, default=96)
     parser.add_argument("--threads", type=int, help="default: one a core")
-    parser.add_argument("--h2mc", default=os.environ.get("H2MC_BINARY", os.path.join(ROOT, "build", "release", "h2mc")))
+    parser.add_argument("--h2mc", default=os.environ.get("H2MC_BINARY", os.path.join(ROOT, "build", "release",
+                                                                                     "h2mc")))
     options = parser.parse_args()
     if options.runs < 2:
         parser.error("--runs: a standard error needs two")
@@ -69,8 +70,9 @@ def main():
     texts = [("integrator", options.integrator), ("runs", f"{runs} of {each}, seeds 1 to {runs}"),
              ("meanLuminance", f"{luminance:.6g} (standard error {luminance_error:.2g})")]
     folder = os.path.dirname(os.path.abspath(options.scene))
-    exr.write(os.path.join(folder, "reference.exr"), width, height, [rounded(c, 13) for c in mean], texts)
-    exr.write(os.path.join(folder, "reference_stderr.exr"), width, height, [rounded(c, 7) for c in error], texts)
+    exr.write(os.path.join(folder, "reference.exr"), width, height, [rounded(c, 11) for c in mean], texts)
+    exr.write(os.path.join(folder, "reference_stderr.exr"), width, height, [rounded(c, 5) for c in error],
+              texts)
     print(f"{os.path.basename(options.scene)}: {options.integrator}, {runs} runs of {each}: mean luminance "
           f"{luminance:.6g}, standard error {luminance_error:.2g} ({100 * luminance_error / luminance:.2g} %)")
 

@@ -23,15 +23,15 @@ def power(x, p):
 
 def body():
     rows = []
-    for k in range(81):
-        t = -1 + 2 * k / 80
+    for k in range(65):
+        t = -1 + 2 * k / 64
         x = LENGTH * math.sin(t * math.pi / 2) * 0.5 + LENGTH * t * 0.5
         taper = max(1 - abs(x / LENGTH) ** 7, 0) ** (1 / 3.5)
         top, bottom = spline(TOP, x), spline(BOTTOM, x)
         middle, half = (top + bottom) / 2, (top - bottom) / 2 * max(taper, 0.0)
         width = WIDTH * (0.93 + 0.07 * math.cos(x)) * taper
         rows.append([(x, middle + half * power(math.sin(a), 0.55), width * power(math.cos(a), 0.5))
-                     for a in (2 * math.pi * i / 56 for i in range(56))])
+                     for a in (2 * math.pi * i / 48 for i in range(48))])
     return rows
 
 
@@ -119,7 +119,8 @@ def main():
         chrome.merge(tube(bend, 0.035, 12))
     chrome.write(__file__, "chrome.ply")
 
-    for name, x, y, sizes in (("headlamps", 2.0, 0.56, (0.08, 0.06, 0.11)), ("taillamps", -2.06, 0.66, (0.05, 0.05, 0.13))):
+    for name, x, y, sizes in (("headlamps", 2.0, 0.56, (0.08, 0.06, 0.11)),
+                              ("taillamps", -2.06, 0.66, (0.05, 0.05, 0.13))):
         lamps = Mesh()
         for z in (-1, 1):
             lamps.merge(blob(x, y, z * 0.56, sizes))

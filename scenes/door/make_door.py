@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """Writes the room, the door, the table and a teapot beside this file: metres, the floor at y = 0."""
 
-import math
 import os
 import sys
 
@@ -14,29 +13,34 @@ AJAR = 38                        # degrees
 
 def teapot():
     """Stands on the origin, its spout towards +x; 0.17 high without the knob."""
-    profile = curve([(0.0, 0.004, 0), (0.05, 0.004, 0), (0.066, 0.0, 0), (0.072, 0.006, 0), (0.088, 0.028, 0), (0.108, 0.065, 0),
-                     (0.106, 0.1, 0), (0.09, 0.13, 0), (0.07, 0.15, 0), (0.066, 0.158, 0), (0.06, 0.16, 0), (0.05, 0.158, 0)], 6)
-    mesh = revolve([(max(r, 0.0), y) for r, y, _ in profile], 80)
-    lid = curve([(0.064, 0.158, 0), (0.065, 0.163, 0), (0.058, 0.169, 0), (0.035, 0.179, 0), (0.015, 0.185, 0), (0.009, 0.191, 0),
-                 (0.012, 0.2, 0), (0.019, 0.208, 0), (0.016, 0.219, 0), (0.006, 0.2245, 0), (0.0, 0.225, 0)], 5)
-    mesh.merge(revolve([(max(r, 0.0), y) for r, y, _ in lid], 64))
+    profile = curve([(0.0, 0.004, 0), (0.05, 0.004, 0), (0.066, 0.0, 0), (0.072, 0.006, 0), (0.088, 0.028, 0),
+                     (0.108, 0.065, 0),
+                     (0.106, 0.1, 0), (0.09, 0.13, 0), (0.07, 0.15, 0), (0.066, 0.158, 0), (0.06, 0.16, 0),
+                     (0.05, 0.158, 0)], 5)
+    mesh = revolve([(max(r, 0.0), y) for r, y, _ in profile], 56)
+    lid = curve([(0.064, 0.158, 0), (0.065, 0.163, 0), (0.058, 0.169, 0), (0.035, 0.179, 0), (0.015, 0.185, 0),
+                 (0.009, 0.191, 0),
+                 (0.012, 0.2, 0), (0.019, 0.208, 0), (0.016, 0.219, 0), (0.006, 0.2245, 0), (0.0, 0.225, 0)], 4)
+    mesh.merge(revolve([(max(r, 0.0), y) for r, y, _ in lid], 44))
 
     # The spout: a bend that narrows, turned in at its mouth.
-    bend = curve([(0.08, 0.055, 0), (0.118, 0.068, 0), (0.148, 0.1, 0), (0.16, 0.135, 0), (0.178, 0.158, 0), (0.19, 0.166, 0)], 8)
+    bend = curve([(0.08, 0.055, 0), (0.118, 0.068, 0), (0.148, 0.1, 0), (0.16, 0.135, 0), (0.178, 0.158, 0),
+                  (0.19, 0.166, 0)], 8)
     width = [(0, 0.031), (0.3, 0.024), (0.65, 0.0155), (0.9, 0.0135), (1, 0.016)]
-    mesh.merge(tube(bend, lambda t: spline(width, t), 28, round_ends=0))
+    mesh.merge(tube(bend, lambda t: spline(width, t), 24, round_ends=0))
     # Its inside, so that the mouth has a rim.
-    inside = tube(bend[-14:], lambda t: mix_radius(t), 28, round_ends=0)
+    inside = tube(bend[-14:], mouth_radius, 20, round_ends=0)
     inside.faces = [f[::-1] for f in inside.faces]
     inside.vertices = [(*v[:3], -v[3], -v[4], -v[5]) for v in inside.vertices]
     mesh.merge(inside)
 
-    handle = curve([(-0.09, 0.132, 0), (-0.12, 0.146, 0), (-0.155, 0.135, 0), (-0.166, 0.1, 0), (-0.148, 0.066, 0), (-0.118, 0.046, 0),
+    handle = curve([(-0.09, 0.132, 0), (-0.12, 0.146, 0), (-0.155, 0.135, 0), (-0.166, 0.1, 0), (-0.148, 0.066, 0),
+                    (-0.118, 0.046, 0),
                     (-0.092, 0.044, 0)], 8)
     return mesh.merge(tube(handle, lambda t: 0.0095 + 0.003 * (2 * t - 1) ** 2, 18, round_ends=0))
 
 
-def mix_radius(t):
+def mouth_radius(t):
     """Of the spout's inside, which meets the outside at the mouth."""
     return 0.0105 + 0.0055 * t ** 6
 
@@ -69,7 +73,8 @@ def room():
     for x0, x1 in ((left, DOOR[0] - 0.09), (DOOR[1] + 0.09, right)):
         wood.merge(block((x0, x1), (0, 0.09), (back - 0.01, back + 0.018)))
     wood.merge(block((left - 0.01, left + 0.018), (0, 0.09), (back, front)))
-    wood.merge(block((DOOR[0] - 0.01, DOOR[0] + 0.03), (0, DOOR[2]), (back - 0.1, back + 0.02)))  # closes the hinge's gap
+    wood.merge(block((DOOR[0] - 0.01, DOOR[0] + 0.03), (0, DOOR[2]),
+                     (back - 0.1, back + 0.02)))  # closes the hinge's gap
     # A door with four panels, turned about its left edge.
     leaf, handle = Mesh(), Mesh()
     width = DOOR[1] - DOOR[0] - 0.01
@@ -94,11 +99,13 @@ def furniture():
     table.merge(block((-1.15, 0.25), (0.6, 0.71), (-1.05, -0.3)))
     for x in (-1.17, 0.27):
         for z in (-1.07, -0.28):
-            table.merge(revolve([(0.0, 0.0), (0.02, 0.0), (0.024, 0.05), (0.03, 0.3), (0.042, 0.55), (0.045, 0.62), (0.0, 0.62)],
+            table.merge(revolve([(0.0, 0.0), (0.02, 0.0), (0.024, 0.05), (0.03, 0.3), (0.042, 0.55), (0.045, 0.62),
+                                 (0.0, 0.62)],
                                 24).moved((x, 0, z)))
     table.write(__file__, "table.ply")
     frame, picture = Mesh(), Mesh()
-    for x0, x1, y0, y1 in ((-1.25, -0.25, 1.9, 1.96), (-1.25, -0.25, 1.24, 1.3), (-1.25, -1.19, 1.24, 1.96), (-0.31, -0.25, 1.24, 1.96)):
+    for x0, x1, y0, y1 in ((-1.25, -0.25, 1.9, 1.96), (-1.25, -0.25, 1.24, 1.3), (-1.25, -1.19, 1.24, 1.96),
+                           (-0.31, -0.25, 1.24, 1.96)):
         frame.merge(block((x0, x1), (y0, y1), (-1.91, -1.865), 0.012, 4))
     picture.grid([[(-1.2, 1.28, -1.885), (-0.3, 1.28, -1.885)], [(-1.2, 1.92, -1.885), (-0.3, 1.92, -1.885)]])
     frame.write(__file__, "frame.ply")

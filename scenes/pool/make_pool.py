@@ -16,7 +16,7 @@ WAVES = [(20, 1.45, 0.0105, 0.3), (75, 1.05, 0.008, 1.9), (130, 0.8, 0.0058, 4.1
 
 
 def water():
-    columns, lines = 84, 112
+    columns, lines = 72, 96
     rows, normals = [], []
     for j in range(lines + 1):
         row, row_normals = [], []
@@ -49,8 +49,10 @@ def basin():
     for mesh, wanted in ((light, False), (dark, True)):
         mesh.merge(tiles((LEFT, -DEPTH, FRONT), (1, 0, 0), (0, 0, -1), wide, deep, (size, size), *shape,
                          lambda i, j: line(i, j) == wanted))
-        for corner, right, columns in (((LEFT, -DEPTH, BACK), (1, 0, 0), wide), ((LEFT, -DEPTH, FRONT), (0, 0, -1), deep),
-                                       ((RIGHT, -DEPTH, BACK), (0, 0, 1), deep), ((RIGHT, -DEPTH, FRONT), (-1, 0, 0), wide)):
+        for corner, right, columns in (((LEFT, -DEPTH, BACK), (1, 0, 0), wide),
+                                       ((LEFT, -DEPTH, FRONT), (0, 0, -1), deep),
+                                       ((RIGHT, -DEPTH, BACK), (0, 0, 1), deep),
+                                       ((RIGHT, -DEPTH, FRONT), (-1, 0, 0), wide)):
             mesh.merge(tiles(corner, right, (0, 1, 0), columns, high, (size, size), *shape,
                              lambda i, j: (j == high - 1) == wanted))
     x, z, y = RIGHT - LEFT, FRONT - BACK, DEPTH + RIM - 0.01
@@ -75,7 +77,7 @@ def basin():
             if x0 < RIGHT < x1 and BACK <= z0 < FRONT:
                 x0 = RIGHT
             x0, x1 = (x0, x1 + 0.04) if abs(x1 - LEFT) < 0.01 else (x0 - 0.04 if abs(x0 - RIGHT) < 0.01 else x0, x1)
-            box = rounded_box((x1 - x0 - 0.008, 0.07, slab - 0.008), 0.012, 2)
+            box = rounded_box((x1 - x0 - 0.008, 0.07, slab - 0.008), 0.012, 1)
             deck.merge(box.moved(((x0 + x1) / 2, RIM - 0.035, (z0 + z1) / 2)))
     deck.write(__file__, "deck.ply")
 
@@ -83,25 +85,31 @@ def basin():
 def things():
     ladder = Mesh()
     for x in (-1.25, -0.75):
-        rail = [(x, RIM, BACK - 0.4), (x, 0.62, BACK - 0.38), (x, 0.86, BACK - 0.22), (x, 0.86, BACK - 0.02), (x, 0.6, BACK + 0.14),
+        rail = [(x, RIM, BACK - 0.4), (x, 0.62, BACK - 0.38), (x, 0.86, BACK - 0.22), (x, 0.86, BACK - 0.02),
+                (x, 0.6, BACK + 0.14),
                 (x, 0.1, BACK + 0.16), (x, -0.5, BACK + 0.16), (x, -1.05, BACK + 0.16), (x, -1.12, BACK + 0.04)]
         ladder.merge(tube(curve(rail, 8), 0.021, 16))
     for y in (-0.25, -0.55, -0.85):
         ladder.merge(rounded_box((0.5, 0.025, 0.09), 0.01, 3).moved((-1.0, y, BACK + 0.16)))
     ladder.write(__file__, "ladder.ply")
 
-    float_ring = ring(0.34, 0.115, 80, 32)
+    float_ring = ring(0.34, 0.115, 60, 24)
     white, red = Mesh(), Mesh()
     for mesh, wanted in ((white, 0), (red, 1)):
         mesh.vertices = float_ring.vertices
-        mesh.faces = [f for k, f in enumerate(float_ring.faces) if k // 32 // 10 % 2 == wanted]
+        mesh.faces = [f for k, f in enumerate(float_ring.faces) if k // 24 // 6 % 2 == wanted]
     white.write(__file__, "float_white.ply")
     red.write(__file__, "float_red.ply")
     # A ball of six gores.
     for name, wanted in (("ball_white", 0), ("ball_blue", 1)):
-        rows = [[(math.cos(a) * math.cos(b), math.sin(a), -math.cos(a) * math.sin(b)) if 0 < i < 24 else (0.0, math.copysign(1, a), 0.0)
-                 for b in (2 * math.pi * k / 48 for k in range(48))] for i, a in ((i, math.pi * (i / 24 - 0.5)) for i in range(25))]
-        Mesh().grid(rows, rows, wrap_columns=True, keep=lambda i, j, w=wanted: j // 8 % 2 == w).write(__file__, name + ".ply")
+        rows = []
+        for i in range(25):
+            a = math.pi * (i / 24 - 0.5)
+            out, up = (math.cos(a), math.sin(a)) if 0 < i < 24 else (0.0, math.copysign(1, a))
+            rows.append([(out * math.cos(b), up, -out * math.sin(b))
+                         for b in (2 * math.pi * k / 48 for k in range(48))])
+        Mesh().grid(rows, rows, wrap_columns=True, keep=lambda i, j, w=wanted: j // 8 % 2 == w).write(__file__,
+                                                                                                      name + ".ply")
 
 
 def main():

@@ -55,17 +55,20 @@ def fan_cage():
 
 def fan_stand():
     """The fan's middle is at the origin, its front towards +z, the table at y = -0.62."""
-    mesh = revolve([(0.0, -0.24), (0.06, -0.24), (0.09, -0.22), (0.1, -0.15), (0.095, -0.08), (0.06, -0.07), (0.0, -0.07)],
+    mesh = revolve([(0.0, -0.24), (0.06, -0.24), (0.09, -0.22), (0.1, -0.15), (0.095, -0.08), (0.06, -0.07),
+                    (0.0, -0.07)],
                    40).moved(rotate=(0, 90))
-    mesh.merge(tube(curve([(0, -0.58, -0.15), (0, -0.4, -0.17), (0, -0.2, -0.18), (0, -0.05, -0.17)], 8), 0.024, 20))
-    mesh.merge(revolve([(0.23, -0.62), (0.235, -0.61), (0.225, -0.59), (0.12, -0.565), (0.05, -0.54), (0.03, -0.5), (0.0, -0.49)],
+    mesh.merge(tube(curve([(0, -0.58, -0.15), (0, -0.4, -0.17), (0, -0.2, -0.18), (0, -0.05, -0.17)], 8), 0.024,
+                    20))
+    mesh.merge(revolve([(0.23, -0.62), (0.235, -0.61), (0.225, -0.59), (0.12, -0.565), (0.05, -0.54), (0.03, -0.5),
+                        (0.0, -0.49)],
                        56).moved((0, 0, -0.14)))
     return mesh
 
 
 def flywheel():
     """A scalloped rim, whose hollows gather the light, on three spokes."""
-    lobes, segments, height = 9, 360, 0.085
+    lobes, segments, height = 9, 270, 0.085
     profile = [(0.0, 0.0), (0.0, 1.0), (0.006, 1.03), (0.022, 1.06), (0.038, 1.03), (0.044, 1.0), (0.044, 0.0),
                (0.038, -0.03), (0.022, -0.06), (0.006, -0.03)]
     dense = []
@@ -78,17 +81,20 @@ def flywheel():
         wave = 0.3 * (1 + 0.075 * math.cos(lobes * t))
         rows.append([((wave + r) * math.cos(t), height * (y - 0.5), (wave + r) * math.sin(t)) for r, y in dense])
     mesh = Mesh().grid(rows, wrap_rows=True, wrap_columns=True, flip=True)
-    mesh.merge(revolve([(0.0, -0.04), (0.04, -0.04), (0.048, -0.02), (0.048, 0.02), (0.04, 0.045), (0.015, 0.06), (0.0, 0.062)], 32))
+    mesh.merge(revolve([(0.0, -0.04), (0.04, -0.04), (0.048, -0.02), (0.048, 0.02), (0.04, 0.045), (0.015, 0.06),
+                        (0.0, 0.062)], 32))
     for k in range(3):
         t = 2 * math.pi * k / 3
-        mesh.merge(tube([((0.03 + 0.28 * i / 8) * math.cos(t), 0, (0.03 + 0.28 * i / 8) * math.sin(t)) for i in range(9)],
+        mesh.merge(tube([((0.03 + 0.28 * i / 8) * math.cos(t), 0,
+                          (0.03 + 0.28 * i / 8) * math.sin(t)) for i in range(9)],
                         lambda s: 0.016 - 0.006 * math.sin(math.pi * s), 14, round_ends=0))
     return mesh
 
 
 def top():
     """Fluted, on its tip at the origin."""
-    profile = [(0.0, 0.0), (0.012, 0.008), (0.03, 0.035), (0.075, 0.085), (0.13, 0.125), (0.15, 0.15), (0.145, 0.172), (0.1, 0.188),
+    profile = [(0.0, 0.0), (0.012, 0.008), (0.03, 0.035), (0.075, 0.085), (0.13, 0.125), (0.15, 0.15),
+               (0.145, 0.172), (0.1, 0.188),
                (0.05, 0.196), (0.024, 0.21), (0.015, 0.24), (0.014, 0.3), (0.02, 0.32), (0.016, 0.335), (0.0, 0.34)]
     points = curve([(r, y, 0.0) for r, y in profile], 4)
     rows = []
@@ -96,7 +102,7 @@ def top():
         deep = 0.09 * smoothstep(0.03, 0.1, r)
         rows.append([(max(r, 0.0) * (1 - deep * (0.5 + 0.5 * math.cos(8 * t))) * math.cos(t), y,
                       -max(r, 0.0) * (1 - deep * (0.5 + 0.5 * math.cos(8 * t))) * math.sin(t))
-                     for t in (2 * math.pi * k / 96 for k in range(96))])
+                     for t in (2 * math.pi * k / 72 for k in range(72))])
     return Mesh().grid(rows, wrap_columns=True)
 
 
@@ -105,7 +111,8 @@ def main():
     fan_cage().write(__file__, "fan_cage.ply")
     fan_stand().write(__file__, "fan_stand.ply")
     flywheel().write(__file__, "flywheel.ply")
-    axle = revolve([(0.1, 0.0), (0.1, 0.012), (0.085, 0.02), (0.03, 0.025), (0.012, 0.04), (0.012, 0.1), (0.0, 0.11)], 40)
+    axle = revolve([(0.1, 0.0), (0.1, 0.012), (0.085, 0.02), (0.03, 0.025), (0.012, 0.04), (0.012, 0.1),
+                    (0.0, 0.11)], 40)
     axle.write(__file__, "axle.ply")
     top().write(__file__, "top.ply")
     rounded_box((2.6, 0.06, 1.5), 0.02).moved((0, -0.03, 0.1)).write(__file__, "table.ply")

@@ -12,7 +12,7 @@ from geometry import Mesh, curve, mix, revolve, ring, rounded_box, spline, tube 
 def blade(length, width, thickness, bend, fuller, point, back_point=False):
     """width: (share of the length, full width) pairs. bend: how far the point leaves the line."""
     mesh = Mesh()
-    steps, columns = 72, 16
+    steps, columns = 56, 12
     for side in (-1, 1):
         rows = []
         for k in range(steps + 1):
@@ -44,22 +44,28 @@ def ball(radius, y):
 
 def grip(bottom, top, radius, turns):
     """Wound with wire: ripples along it."""
-    steps = turns * 10
-    return revolve([(radius * (1 - 0.25 * (2 * k / steps - 1) ** 2) * (1 + 0.07 * math.sin(2 * math.pi * turns * k / steps)),
-                     mix(bottom, top, k / steps)) for k in range(steps + 1)], 24)
+    steps = turns * 8
+    profile = []
+    for k in range(steps + 1):
+        t = k / steps
+        belly = 1 - 0.25 * (2 * t - 1) ** 2
+        profile.append((radius * belly * (1 + 0.07 * math.sin(2 * math.pi * turns * t)), mix(bottom, top, t)))
+    return revolve(profile, 20)
 
 
 def main():
     # A long sword: straight, with a fuller and a cross for a guard.
     blade(0.95, [(0, 0.055), (1, 0.032)], 0.013, 0.0, True, 0.85).write(__file__, "sword_blade.ply")
-    hilt = tube(curve([(-0.125, 0.018, 0), (-0.07, -0.008, 0), (0, -0.012, 0), (0.07, -0.008, 0), (0.125, 0.018, 0)], 8),
+    hilt = tube(curve([(-0.125, 0.018, 0), (-0.07, -0.008, 0), (0, -0.012, 0), (0.07, -0.008, 0),
+                       (0.125, 0.018, 0)], 8),
                 lambda t: 0.0085 + 0.006 * abs(2 * t - 1) ** 4, 14, round_ends=5)
     hilt.merge(ball(0.027, -0.23))
     hilt.write(__file__, "sword_hilt.ply")
     grip(-0.21, -0.014, 0.0165, 11).write(__file__, "sword_grip.ply")
 
     # A sabre: curved, with a bow round the hand.
-    blade(0.86, [(0, 0.034), (0.75, 0.034), (1, 0.028)], 0.009, 0.17, True, 0.86, True).write(__file__, "sabre_blade.ply")
+    blade(0.86, [(0, 0.034), (0.75, 0.034), (1, 0.028)], 0.009, 0.17, True, 0.86, True).write(__file__,
+                                                                                              "sabre_blade.ply")
     bow = curve([(0.06, 0.0, 0), (0.0, -0.006, 0), (-0.05, -0.012, 0), (-0.075, -0.05, 0), (-0.072, -0.11, 0),
                  (-0.03, -0.155, 0), (0.012, -0.165, 0)], 8)
     hilt = tube(bow, 0.0075, 12, round_ends=5)
@@ -77,8 +83,10 @@ def main():
     grip(-0.25, -0.006, 0.0155, 13).write(__file__, "katana_grip.ply")
 
     # A round shield, its boss towards +y.
-    shield = revolve([(0.0, -0.012), (0.24, -0.012), (0.262, -0.006), (0.27, 0.004), (0.262, 0.014), (0.25, 0.012), (0.235, 0.009),
-                      (0.2, 0.022), (0.15, 0.035), (0.1, 0.043), (0.075, 0.047), (0.072, 0.058), (0.06, 0.08), (0.035, 0.097),
+    shield = revolve([(0.0, -0.012), (0.24, -0.012), (0.262, -0.006), (0.27, 0.004), (0.262, 0.014), (0.25, 0.012),
+                      (0.235, 0.009),
+                      (0.2, 0.022), (0.15, 0.035), (0.1, 0.043), (0.075, 0.047), (0.072, 0.058), (0.06, 0.08),
+                      (0.035, 0.097),
                       (0.0, 0.103)], 72)
     shield.merge(ring(0.2, 0.007, 72, 10).moved((0, 0.024, 0)))
     for k in range(12):
@@ -94,7 +102,8 @@ def main():
     stand = rounded_box((0.56, 0.03, 0.15), 0.008).moved((0, 0.015, 0.34))
     for x in (-0.2, 0.2):
         stand.merge(tube([(x, 0.02, 0.34), (x, 0.112, 0.34)], 0.011, 12))
-        stand.merge(tube(curve([(x, 0.15, 0.305), (x, 0.128, 0.315), (x, 0.118, 0.34), (x, 0.128, 0.365), (x, 0.15, 0.375)], 6),
+        stand.merge(tube(curve([(x, 0.15, 0.305), (x, 0.128, 0.315), (x, 0.118, 0.34), (x, 0.128, 0.365),
+                                (x, 0.15, 0.375)], 6),
                          0.007, 12))
     stand.write(__file__, "stand.ply")
 

@@ -3,7 +3,6 @@
 
 import math
 import os
-import struct
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
@@ -58,7 +57,8 @@ def backdrop():
     """A floor that bends up behind."""
     radius, back = 3.0, -3.5
     line = [(4.5, 0.0), (back, 0.0)]
-    line += [(back - radius * math.sin(a), radius * (1 - math.cos(a))) for a in (math.pi / 2 * k / 24 for k in range(1, 25))]
+    line += [(back - radius * math.sin(a),
+              radius * (1 - math.cos(a))) for a in (math.pi / 2 * k / 24 for k in range(1, 25))]
     line.append((back - radius, 5.0))
     rows = [[(-9.0, y, z), (9.0, y, z)] for z, y in line]
     normals = []
@@ -70,7 +70,7 @@ def backdrop():
 
 def main():
     write_sky(os.path.join(os.path.dirname(os.path.abspath(__file__)), "sky.hdr"))
-    ring(0.56, 0.23, 128, 64).write(__file__, "torus.ply")
+    ring(0.56, 0.23, 96, 48).write(__file__, "torus.ply")
     rounded_box((2, 2, 2), 0.04, 6).write(__file__, "cube.ply")
     backdrop().write(__file__, "backdrop.ply")
 
