@@ -338,3 +338,11 @@ def tiles(corner, right, up, columns, rows, size, gap, bevel, height, lean, chos
 def plane(point, right, up):
     """A parallelogram; its outside is where right x up points."""
     return Mesh().grid([[point, add(point, right)], [add(point, up), add(add(point, right), up)]])
+
+
+def dish(radius, depth, segments=48):
+    """A lamp's reflector: a shallow bowl that opens towards -y, its middle at the origin."""
+    r = (radius * radius + depth * depth) / (2 * depth)
+    inside = [(radius * k / 10, -(r - math.sqrt(r * r - (radius * k / 10) ** 2))) for k in range(11)]
+    back = [(x * 1.01, y + 0.04 * radius) for x, y in inside[::-1]]
+    return revolve(inside + back, segments)

@@ -6,7 +6,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from geometry import Mesh, block, curve, revolve, ring, spline, tube  # noqa: E402
+from geometry import Mesh, block, curve, dish, revolve, ring, spline, tube  # noqa: E402
 
 LENGTH = 2.15       # half of it
 WIDTH = 0.84        # half of it
@@ -134,7 +134,7 @@ def plate(mesh, x0, x1, y0, y1, z):
 
 
 def street():
-    markings, house, windows, posts = Mesh(), Mesh(), Mesh(), Mesh()
+    markings, house, windows, posts, dishes = (Mesh() for _ in range(5))
     for k in range(-4, 4):
         x = 3 * k - 0.4
         markings.grid([[(x, 0.004, -1.55), (x + 1.6, 0.004, -1.55)], [(x, 0.004, -1.68), (x + 1.6, 0.004, -1.68)]])
@@ -153,7 +153,8 @@ def street():
         arm = [(x, 0, z), (x, 3.2, z), (x, 4.3, z + 0.1 * out), (x, 4.75, z + 0.5 * out), (x, 4.8, z + 1.1 * out)]
         if z < 0:
             posts.merge(tube(curve(arm, 8), 0.05, 12))
-        posts.merge(blob(x, 4.75, z + 1.1 * out, (0.17, 0.07, 0.17)))     # above the lamp
+        dishes.merge(dish(0.5, 0.1).moved((x, 4.8, z + 1.1 * out)))
+    dishes.write(__file__, "dishes.ply")
     markings.write(__file__, "markings.ply")
     house.write(__file__, "house.ply")
     windows.write(__file__, "windows.ply")

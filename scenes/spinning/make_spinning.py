@@ -6,7 +6,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from geometry import Mesh, circle, curve, mix, revolve, rounded_box, smoothstep, tube  # noqa: E402
+from geometry import Mesh, circle, curve, dish, mix, revolve, rounded_box, smoothstep, tube  # noqa: E402
 
 
 def fan_blades():
@@ -115,6 +115,7 @@ def main():
                     (0.0, 0.11)], 40)
     axle.write(__file__, "axle.ply")
     top().write(__file__, "top.ply")
+    dish(0.2, 0.05).moved(rotate=(0, -90)).write(__file__, "dish.ply")     # opens towards +z
     rounded_box((2.6, 0.06, 1.5), 0.02).moved((0, -0.03, 0.1)).write(__file__, "table.ply")
 
 

@@ -6,7 +6,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from geometry import Mesh, curve, mix, revolve, ring, rounded_box, spline, tube  # noqa: E402
+from geometry import Mesh, curve, dish, mix, revolve, ring, rounded_box, spline, tube  # noqa: E402
 
 
 def blade(length, width, thickness, bend, fuller, point, back_point=False):
@@ -93,6 +93,8 @@ def main():
         a = 2 * math.pi * k / 12
         shield.merge(ball(0.01, 0.0).moved((0.246 * math.cos(a), 0.013, 0.246 * math.sin(a))))
     shield.write(__file__, "shield.ply")
+
+    dish(0.16, 0.03).write(__file__, "dish.ply")
 
     # Blocks that hold what stands, and the stand of the katana.
     stones = Mesh()
