@@ -16,7 +16,7 @@ std::vector<std::string> ownScenes() {
 }
 
 // The others take minutes each, and are compared when H2MC_TEST_EFFORT is given.
-bool everyTime(const std::string& name) { return name == "ring" || name == "cars"; }
+bool everyTime(const std::string& name) { return name == "ring" || name == "cornell"; }
 
 class OwnScenes : public testing::TestWithParam<std::string> {};
 
