@@ -154,8 +154,7 @@ void SymmetricEigen<MaxSize>::tridiagonalise(Row* a, double* offDiagonal) {
     v[k + 1] = first - offDiagonal[k];
 
     // p = tau A v and q = tau V^T v
-    Vec p[kChunks], q[kChunks];
-    for (int c = 0; c < chunks; ++c) p[c] = q[c] = Vec{};
+    Vec p[kChunks] = {}, q[kChunks] = {};
     for (int r = k + 1; r < n; ++r) {
       const double t = tau * v[r];
       for (int c = begin; c < chunks; ++c) p[c] += t * load(a[r] + c * kWidth);

@@ -51,18 +51,12 @@ LocalModel localModel(const Scene& scene, const Path& path, const HamiltonianSet
   model.dimension = path.dimension();
   model.settings = settings;
   model.logTarget = std::log(double(path.target));
-  if (model.dimension > kMaxDerivativeDimension) {
-    model.reason = fmt::format("derivatives end at {} coordinates, and this path has {}",
-                               kMaxDerivativeDimension, model.dimension);
-    return model;
-  }
   Derivative derivative;
-  if (!differentiate(scene, path, derivative))
-    model.reason = "there are no derivatives for this kind of path";
-  else if (!derivative.finite())
-    model.reason = "its derivatives are not finite";
-  else
+  differentiate(scene, path, derivative);
+  if (derivative.finite())
     decompose(derivative, model);
+  else
+    model.reason = "its derivatives are not finite";
   return model;
 }
 

@@ -56,12 +56,11 @@ class PathDerivative : public testing::TestWithParam<Case> {
   // Calls visit(path) for up to `perTechnique` traced paths of each technique.
   template <class Visit>
   void forPaths(int perTechnique, int samples, Visit&& visit) {
-    techniques_ =
-        test::forSampledPaths(*scene_, GetParam().maxLength, perTechnique, samples,
-                              [&](const Path& path, float sampled) {
-                                EXPECT_EQ(path.target, sampled) << "replayed";
-                                visit(path);
-                              });
+    techniques_ = test::forSampledPaths(*scene_, GetParam().maxLength, perTechnique, samples,
+                                        [&](const Path& path, float sampled) {
+                                          EXPECT_EQ(path.target, sampled) << "replayed";
+                                          visit(path);
+                                        });
   }
 
   std::unique_ptr<Scene> scene_;
@@ -91,8 +90,8 @@ TEST_P(PathDerivative, FrozenTopologyGivesTheTracedValue) {
 TEST_P(PathDerivative, LocalFormIsThePlainOne) {
   int checked = 0, apart = 0;
   double worst = 0;
-  techniques_ = test::forSampledPaths(
-      *scene_, GetParam().maxLength, 10, 3000, [&](const Path& path, float) {
+  techniques_ =
+      test::forSampledPaths(*scene_, GetParam().maxLength, 10, 3000, [&](const Path& path, float) {
         double u[kMostCoordinates];
         pathCoordinates(path, u);
         const auto plain = differentiateInDouble(*scene_, path, u);
@@ -112,8 +111,8 @@ TEST_P(PathDerivative, LocalFormIsThePlainOne) {
           error = std::max(error, std::abs(local.gradient[g] - plain.gradient[g]) / scale(i));
           for (int j = 0; j <= i; ++j) {
             const auto h = static_cast<std::size_t>(ad::triangleIndex(i, j));
-            error = std::max(error, std::abs(local.hessian[h] - plain.hessian[h]) /
-                                        (scale(i) * scale(j)));
+            error = std::max(error,
+                             std::abs(local.hessian[h] - plain.hessian[h]) / (scale(i) * scale(j)));
           }
         }
         EXPECT_LE(error, 1e-4) << pathText(path.technique, path.sample);
@@ -142,8 +141,13 @@ TEST_P(PathDerivative, SlowAgreesWithFiniteDifferences) {
     agree += check.agree;
     unjudged += check.noisy + check.kinked;
     rounding += check.forms[0].verdict == FormVerdict::kRounding;
-    wrongInFloat += check.forms[0].verdict == FormVerdict::kWrong ||
-                    check.forms[0].verdict == FormVerdict::kNotFinite;
+    if (check.forms[0].verdict == FormVerdict::kWrong ||
+        check.forms[0].verdict == FormVerdict::kNotFinite) {
+      ++wrongInFloat;
+      std::printf("  float: value %.1e, gradient %.1e, Hessian %.1e off: %s\n",
+                  check.forms[0].value, check.forms[0].gradient, check.forms[0].hessian,
+                  text.c_str());
+    }
   }
   std::printf("%s: %lld entries agree, %lld not judged; float: %d paths rounding, %d wrong\n",
               GetParam().name, agree, unjudged, rounding, wrongInFloat);

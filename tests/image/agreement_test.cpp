@@ -1,4 +1,6 @@
 // The integrators against each other on the project's own scenes.
+#include <algorithm>
+
 #include "image_check.h"
 
 namespace h2mc::test {
@@ -47,8 +49,11 @@ TEST_P(OwnScenes, SlowIntegratorsAgree) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, OwnScenes, testing::ValuesIn(ownScenes()),
-                         [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Scenes, OwnScenes, testing::ValuesIn(ownScenes()), [](const auto& info) {
+  std::string name = info.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
 
 }  // namespace
 }  // namespace h2mc::test

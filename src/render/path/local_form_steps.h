@@ -88,9 +88,11 @@ auto LocalForm<S, kMoving>::arrival(const Step<M>& step, int first, const Subpat
                                     const TracedVertex& vertex) const
     -> Arrival<typename Step<M>::D> {
   using D = typename Step<M>::D;
-  const SurfacePoint<D> point =
+  SurfacePoint<D> point =
       pointOnPrimitive<D>(scene_.shapes, vertex.id, vertex.vertex.point.p,
                           Vec2<D>(step.x(first), step.x(first + 1)), step.time());
+  // Exactly where it was traced: coordinates on large surfaces are less precise than points.
+  if constexpr (std::is_same_v<S, float>) point.p = withValue<D>(point.p, vertex.vertex.point.p);
   return arrivalAt<D>(point,
                       subpath.chart.direction(Vec2<D>(step.x(first + 2), step.x(first + 3))));
 }
