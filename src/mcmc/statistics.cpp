@@ -64,9 +64,7 @@ nlohmann::json ChainStatistics::json(const std::vector<std::string>& kindNames) 
   nlohmann::json result = {
       {"mutations", mutations},
       {"mutation kinds", kinds},
-      {"derivatives",
-       {{"computed", derivatives.computed},
-        {"not finite", derivatives.notFinite}}},
+      {"derivatives", {{"computed", derivatives.computed}, {"not finite", derivatives.notFinite}}},
       {"time shares",
        {{"tracing", share(profile.rays)},
         {"derivatives", share(profile.derivatives)},
