@@ -26,8 +26,9 @@ skip() { results+=("$(printf '%-7s         %s' skipped "$1: $2")"); }
 # sources: the C++ files below src and tests, one per line.
 sources() { find "$root/src" "$root/tests" \( -name '*.cpp' -o -name '*.h' \) -print | sort; }
 
+# Three at once: scripts that wait for progress lines leave a core idle.
 release_tests() {
-  ctest --test-dir "$root/build/release" -j2 --output-on-failure "${ctest_args[@]}" 2>&1 | tee "$root/build/ctest.log"
+  ctest --test-dir "$root/build/release" -j3 --output-on-failure "${ctest_args[@]}" 2>&1 | tee "$root/build/ctest.log"
 }
 
 # Embree, TBB and OpenImageIO keep what they allocate until the process ends, so leaks in them are not looked for.
