@@ -32,6 +32,7 @@ class LocalForm {
 
  private:
   static constexpr int kTime = kMoving ? 1 : 0;
+  static constexpr Techniques kBoth = Techniques::kBidirectional;
 
   // Positions among a step's outputs, kNone for what is not there.
   struct Leaving {
@@ -67,14 +68,14 @@ class LocalForm {
   void logFactor(Step<M>& step, const Rgb<typename Step<M>::D>& factor, int (&outputs)[3]);
   template <int M>
   void multiply(const Step<M>& step, const int (&outputs)[3]);
-  // The MIS weight's terms from a subpath that the last step scales by `factors`.
   template <int M>
   Factors logFactors(Step<M>& step, const typename Link<typename Step<M>::D>::Factors& factors,
                      const typename Step<M>::D& cosIn);
   template <int M>
-  void addTerms(const Step<M>& step, const Factors& factors, const Subpath& subpath);
-  template <int M>
   void addTerm(const Step<M>& step, int output, Variable log);
+  template <int M>
+  void end(Step<M>& step, const Link<typename Step<M>::D>& link,
+           const typename Step<M>::D* cameraCosIn, const typename Step<M>::D* lightCosIn);
   // log root((vc reverse)^2 + vcm^2); kNone if that is zero.
   Variable logRoot(const Subpath& subpath, Variable reverse);
 

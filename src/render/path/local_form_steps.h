@@ -146,12 +146,26 @@ void LocalForm<S, kMoving>::addTerm(const Step<M>& step, int output, Variable lo
     terms_[termCount_++] = composition_.sum(step.variable(output), log);
 }
 
+// A technique's last step: its outputs, and the terms of the MIS weight. The subpaths that have a vertex
+// there give its cosIn.
 template <class S, bool kMoving>
 template <int M>
-void LocalForm<S, kMoving>::addTerms(const Step<M>& step, const Factors& factors,
-                                     const Subpath& subpath) {
-  addTerm(step, factors.vcm, subpath.vcm);
-  addTerm(step, factors.vc, subpath.vc);
+void LocalForm<S, kMoving>::end(Step<M>& step, const Link<typename Step<M>::D>& link,
+                                const typename Step<M>::D* cameraCosIn,
+                                const typename Step<M>::D* lightCosIn) {
+  int value[3];
+  logFactor(step, link.value, value);
+  const int direct = step.addLog(link.direct);
+  Factors camera, light;
+  if (cameraCosIn) camera = logFactors(step, link.camera, *cameraCosIn);
+  if (lightCosIn) light = logFactors(step, link.light, *lightCosIn);
+  step.apply();
+  multiply(step, value);
+  if (direct != kNone) terms_[termCount_++] = step.variable(direct);
+  addTerm(step, camera.vcm, camera_.vcm);
+  addTerm(step, camera.vc, camera_.vc);
+  addTerm(step, light.vcm, light_.vcm);
+  addTerm(step, light.vc, light_.vc);
 }
 
 template <class S, bool kMoving>
@@ -229,12 +243,8 @@ void LocalForm<S, kMoving>::seeEnvironment() {
   Step<2> step(composition_, path_, {0, 1});
   using D = typename Step<2>::D;
   const PathRay<D> ray = h2mc::startCamera<D>(scene_, step.x(0), step.x(1), step.time());
-  const Link<D> link =
-      linkOfEnvironment<D>(scene_, ray.direction, path_.technique.t, Techniques::kBidirectional);
-  int value[3];
-  logFactor(step, link.value, value);
-  step.apply();
-  multiply(step, value);
+  end(step, linkOfEnvironment<D>(scene_, ray.direction, path_.technique.t, kBoth), nullptr,
+      nullptr);
 }
 
 template <class S, bool kMoving>
@@ -249,8 +259,7 @@ void LocalForm<S, kMoving>::scatterToEnvironment() {
   const Arrival<D> vertex = arrival(step, 0, camera_, here);
   const Scattering<D> s =
       scatteringFrom<D>(scene_, vertex, here.id, here.lobe, step.x(4), step.x(5), Side::kCamera);
-  const Link<D> link =
-      linkOfEnvironment<D>(scene_, s.direction, path_.technique.t, Techniques::kBidirectional);
+  const Link<D> link = linkOfEnvironment<D>(scene_, s.direction, path_.technique.t, kBoth);
   int out[3], vcm = kNone, vc = kNone, reverse = kNone;
   logFactor(step, s.factor * link.value, out);
   if (value(link.camera.vcm) > 0 && !s.delta) vcm = step.addLog(s.vcm * link.camera.vcm);
@@ -272,15 +281,10 @@ void LocalForm<S, kMoving>::hitLight() {
   using D = typename Step<4>::D;
   const Arrival<D> vertex = arrival(step, 0, camera_, here);
   const Vec3<D> direction = camera_.chart.direction(Vec2<D>(step.x(2), step.x(3)));
-  const Link<D> link =
+  end(step,
       linkOfAreaLight<D>(scene_, vertex.point, direction, path_.lightIndex, path_.technique.t,
-                         Techniques::kBidirectional, here.id, step.time());
-  int value[3];
-  logFactor(step, link.value, value);
-  const Factors factors = logFactors(step, link.camera, vertex.cosIn);
-  step.apply();
-  multiply(step, value);
-  addTerms(step, factors, camera_);
+                         kBoth, here.id, step.time()),
+      &vertex.cosIn, nullptr);
 }
 
 template <class S, bool kMoving>
@@ -293,17 +297,10 @@ void LocalForm<S, kMoving>::connectToLight() {
   using D = typename Step<6>::D;
   const Arrival<D> vertex = arrival(step, 0, camera_, here);
   DirectLight<D> direct;
-  const Link<D> link =
+  end(step,
       linkToLight<D>(scene_, vertex, here.id, path_.lightIndex, path_.lightPrimitive, step.x(4),
-                     step.x(5), Techniques::kBidirectional, direct, step.time());
-  int value[3];
-  logFactor(step, link.value, value);
-  const int sampled = step.addLog(link.direct);
-  const Factors factors = logFactors(step, link.camera, vertex.cosIn);
-  step.apply();
-  multiply(step, value);
-  if (sampled != kNone) terms_[termCount_++] = step.variable(sampled);
-  addTerms(step, factors, camera_);
+                     step.x(5), kBoth, direct, step.time()),
+      &vertex.cosIn, nullptr);
 }
 
 template <class S, bool kMoving>
@@ -316,15 +313,8 @@ void LocalForm<S, kMoving>::connectVertices() {
   using D = typename Step<8>::D;
   const Arrival<D> camera = arrival(step, 0, camera_, cameraEnd);
   const Arrival<D> light = arrival(step, 4, light_, lightEnd);
-  const Link<D> link = linkOfVertices<D>(scene_, camera, cameraEnd.id, light, lightEnd.id);
-  int value[3];
-  logFactor(step, link.value, value);
-  const Factors ofCamera = logFactors(step, link.camera, camera.cosIn);
-  const Factors ofLight = logFactors(step, link.light, light.cosIn);
-  step.apply();
-  multiply(step, value);
-  addTerms(step, ofCamera, camera_);
-  addTerms(step, ofLight, light_);
+  end(step, linkOfVertices<D>(scene_, camera, cameraEnd.id, light, lightEnd.id), &camera.cosIn,
+      &light.cosIn);
 }
 
 template <class S, bool kMoving>
@@ -334,13 +324,7 @@ void LocalForm<S, kMoving>::connectToCamera() {
                {light_.at[0], light_.at[1], light_.direction[0], light_.direction[1]});
   using D = typename Step<4>::D;
   const Arrival<D> vertex = arrival(step, 0, light_, here);
-  const Link<D> link = linkToCamera<D>(scene_, vertex, here.id, step.time());
-  int value[3];
-  logFactor(step, link.value, value);
-  const Factors factors = logFactors(step, link.light, vertex.cosIn);
-  step.apply();
-  multiply(step, value);
-  addTerms(step, factors, light_);
+  end(step, linkToCamera<D>(scene_, vertex, here.id, step.time()), nullptr, &vertex.cosIn);
 }
 
 // log(luminance of the channels) + log(1 / (1 + sum of terms^2)). Channels of the same factors are one.
