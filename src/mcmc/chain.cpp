@@ -1,30 +1,17 @@
 #include "mcmc/chain.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
 #include "render/integrator/parallel_rounds.h"
+#include "render/path/path_text.h"
 
 namespace h2mc {
 namespace {
 
 // One mutation in so many is timed: often enough to know the shares, seldom enough not to matter.
 constexpr long long kTimedEvery = 64;
-
-// The coordinates that trace a path again.
-std::string describe(const Path& path) {
-  std::string text = fmt::format("s={} t={} u=", path.technique.s, path.technique.t);
-  for (int i = 0; i < path.technique.dimension(); ++i)
-    text += fmt::format("{}{:a}", i ? "," : "", path.sample.u[static_cast<std::size_t>(i)]);
-  text += " choice=";
-  for (int i = 0; i < path.technique.choices(); ++i)
-    text += fmt::format("{}{:a}", i ? "," : "", path.sample.choice[static_cast<std::size_t>(i)]);
-  if (path.sample.time > 0) text += fmt::format(" time={:a}", path.sample.time);
-  return text;
-}
 
 }  // namespace
 
@@ -92,7 +79,8 @@ void Chain::step(KernelMixture& kernels, ChainFilms& films, ChainStatistics& sta
   if (made) {
     acceptance = acceptanceProbability(current_->path, proposed_->path, logRatio);
   } else if (!proposed_->path.finite) {
-    if (statistics.notFinite++ == 0) statistics.firstNotFinite = describe(proposed_->path);
+    if (statistics.notFinite++ == 0)
+      statistics.firstNotFinite = pathText(proposed_->path.technique, proposed_->path.sample);
   }
 
   // Both states count with their expected weights [Veach 1997, section 11.4].

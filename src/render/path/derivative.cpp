@@ -70,6 +70,8 @@ void differentiateLocally(const Scene& scene, const Path& path, Derivative& resu
   if (target < 0) {
     // A factor has underflowed: no derivatives.
     result.logTarget = -std::numeric_limits<float>::infinity();
+    std::fill_n(result.gradient, result.dimension, 0.f);
+    std::fill_n(result.hessian, result.dimension * (result.dimension + 1) / 2, 0.f);
     return;
   }
   result.logTarget = composition.value(target);

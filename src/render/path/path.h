@@ -93,9 +93,9 @@ bool cameraVisible(const Scene& scene, const SurfacePoint<float>& point, float t
                    float& filmY);
 
 bool pointEscapes(const Scene& scene, const SurfacePoint<float>& point, const Vec3f& direction,
-                  float time = 0);
+                  float time);
 bool pointsVisible(const Scene& scene, const SurfacePoint<float>& a, const SurfacePoint<float>& b,
-                   float time = 0);
+                   float time);
 
 // The first primitive along a ray; rays from the camera end at its clipping planes.
 PrimitiveId nextPrimitive(const Scene& scene, const PathRay<float>& ray, bool fromCamera,
