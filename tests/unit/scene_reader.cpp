@@ -237,7 +237,10 @@ TEST(SceneReader, LightsKnowTheirShapes) {
   // As Mitsuba 0.6: a light that names no BSDF reflects nothing.
   expectColor(reflectance(scene, 1), 0, 0, 0);
   expectColor(reflectance(scene, 0), 0.5f, 0.5f, 0.5f);
-  for (int i = 0; i < 3; ++i) EXPECT_GT(scene.lightPicker.probability(i), 0);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_GT(scene.directPicker.probability(i), 0);
+    EXPECT_GT(scene.emissionPicker.probability(i), 0);
+  }
 }
 
 TEST(SceneReader, WhatNothingRefersToIsLeftOut) {

@@ -2,7 +2,7 @@
 
 namespace h2mc {
 
-LightPicker::LightPicker(const std::vector<double>& powers) : distribution_(powers) {
+LightPicker::LightPicker(const std::vector<double>& weights) : distribution_(weights) {
   for (int i = 0; i < distribution_.size(); ++i)
     probabilities_.push_back(static_cast<float>(distribution_.probability(i)));
 }

@@ -7,12 +7,12 @@
 
 namespace h2mc {
 
-// Chooses a light by power. Probabilities are positive for every light that emits.
+// Chooses a light with fixed probabilities.
 class LightPicker {
  public:
   LightPicker() = default;
-  // powers: finite, not negative, one a light. All zero counts as all equal.
-  explicit LightPicker(const std::vector<double>& powers);
+  // weights: finite, not negative, one a light. All zero counts as all equal.
+  explicit LightPicker(const std::vector<double>& weights);
 
   struct Choice {
     int light;        // -1 when there is no light

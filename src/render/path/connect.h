@@ -86,6 +86,16 @@ Contribution<T> contributionOf(const Link<T>& link, const Camera* camera, const 
   return c;
 }
 
+// The link with what the other techniques' densities at a light that was hit are.
+template <class T>
+Link<T> weighedHit(const Scene& scene, Link<T>&& link, const LightHit<T>& hit, int light,
+                   Techniques techniques) {
+  link.camera.vcm = hit.directPdf * Scalar<T>(scene.directPicker.probability(light));
+  if (techniques == Techniques::kBidirectional)
+    link.camera.vc = hit.emissionPdf * Scalar<T>(scene.emissionPicker.probability(light));
+  return std::move(link);
+}
+
 // s = 0: the camera subpath has arrived, in world direction `direction`, at the area light `light`, on
 // its primitive `id` (which only matters if the light moves).
 template <class T>
@@ -96,10 +106,7 @@ Link<T> linkOfAreaLight(const Scene& scene, const SurfacePoint<T>& point, const 
   const LightHit<T> hit = l.template hit<T>(scene.lightContext(), point, direction, id, time);
   Link<T> link(hit.radiance);
   if (t == 2 || link.zero()) return link;
-  const Scalar<T> pick = scene.lightPicker.probability(light);
-  link.camera.vcm = hit.directPdf * pick;
-  if (techniques == Techniques::kBidirectional) link.camera.vc = hit.emissionPdf * pick;
-  return link;
+  return weighedHit(scene, std::move(link), hit, light, techniques);
 }
 
 // s = 0: the camera subpath has left the scene in world direction `direction`.
@@ -114,10 +121,7 @@ Link<T> linkOfEnvironment(const Scene& scene, const Vec3<T>& direction, int t,
             l.template hit<T>(scene.lightContext(), SurfacePoint<T>{}, direction);
         Link<T> link(hit.radiance);
         if (t == 2 || link.zero()) return link;
-        const Scalar<T> pick = scene.lightPicker.probability(light);
-        link.camera.vcm = hit.directPdf * pick;
-        if (techniques == Techniques::kBidirectional) link.camera.vc = hit.emissionPdf * pick;
-        return link;
+        return weighedHit(scene, std::move(link), hit, light, techniques);
       },
       scene.lights[static_cast<std::size_t>(light)]);
 }
@@ -136,14 +140,15 @@ Link<T> linkToLight(const Scene& scene, const Arrival<T>& vertex, PrimitiveId id
         const Vec3<T> wo = vertex.point.shading.toLocal(direct.direction);
         const BsdfValue<T> e =
             evaluateMaterial<T>(scene.bsdfs, materialAt(scene, id), vertex.point.uv, vertex.wi, wo);
-        const Scalar<T> pick = scene.lightPicker.probability(light);
+        const Scalar<T> pick = scene.directPicker.probability(light);
         const T inverse = T(1) / (direct.directPdf * pick);
         Link<T> link(direct.radiance * e.value * inverse);
         if (link.zero()) return link;
         if (!l.isDelta()) link.direct = e.pdf * inverse;
         if (techniques == Techniques::kBidirectional) {
           const T cosHere = abs(dot(vertex.point.ng, direct.direction));
-          link.camera.vcm = direct.emissionPdf * cosHere / (direct.directPdf * direct.cosLight);
+          link.camera.vcm = direct.emissionPdf * (scene.emissionPicker.probability(light) / pick) *
+                            cosHere / (direct.directPdf * direct.cosLight);
           link.camera.vc = link.camera.vcm * e.pdfReverse;
         }
         return link;

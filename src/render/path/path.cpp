@@ -150,8 +150,9 @@ bool traceCamera(const Scene& scene, Path& path, int first) {
   return true;
 }
 
-bool pickLight(const Scene& scene, float choice, int& light, PrimitiveId& primitive) {
-  const LightPicker::Choice pick = scene.lightPicker.choose(choice);
+bool pickLight(const Scene& scene, int s, float choice, int& light, PrimitiveId& primitive) {
+  const LightPicker::Choice pick =
+      (s == 1 ? scene.directPicker : scene.emissionPicker).choose(choice);
   if (pick.light < 0) return false;
   light = pick.light;
   primitive = std::visit(
@@ -183,7 +184,7 @@ Step stepLight(const Scene& scene, Path& path, int i) {
 bool traceLight(const Scene& scene, Path& path) {
   const Technique& technique = path.technique;
   if (technique.s == 0) return true;
-  if (!pickLight(scene, path.sample.choice[static_cast<std::size_t>(technique.lightPick())],
+  if (!pickLight(scene, technique.s, path.sample.choice[static_cast<std::size_t>(technique.lightPick())],
                  path.lightIndex, path.lightPrimitive))
     return false;
   const unsigned wraps = std::visit(

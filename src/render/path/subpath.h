@@ -97,7 +97,8 @@ PathRay<T> startLight(const Scene& scene, int light, PrimitiveId primitive, cons
                       const T& u1, const T& v0, const T& v1,
                       const std::type_identity_t<T>* time = nullptr) {
   using S = Scalar<T>;
-  const S pick = scene.lightPicker.probability(light);
+  const S pick = scene.emissionPicker.probability(light);
+  const S direct = scene.directPicker.probability(light);
   return std::visit(
       [&](const auto& l) {
         const EmittedRay<T> e =
@@ -110,7 +111,7 @@ PathRay<T> startLight(const Scene& scene, int light, PrimitiveId primitive, cons
         ray.originNormal = value3(e.normal);
         const T inverse = T(1) / (e.emissionPdf * pick);
         ray.throughput = e.power * inverse;
-        ray.vcm = e.directPdf / e.emissionPdf;
+        ray.vcm = e.directPdf * (direct / pick) / e.emissionPdf;
         ray.vc = l.isDelta() ? T(0) : e.cosLight * inverse;
         ray.fromInfinity = l.isInfinite();
         return ray;

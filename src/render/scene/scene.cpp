@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/geometry/ray_tracer.h"
+#include "render/path/light_use.h"
 
 namespace h2mc {
 namespace {
@@ -69,8 +70,9 @@ void Scene::finish() {
   for (const Light& light : lights)
     powers.push_back(
         static_cast<double>(std::visit([&](const auto& l) { return l.power(bounds); }, light)));
-  lightPicker = LightPicker(powers);
+  directPicker = emissionPicker = LightPicker(powers);
   tracer = std::make_unique<RayTracer>(shapes);
+  if (lights.size() > 1) pickLightsByUse(*this, powers);
 }
 
 }  // namespace h2mc

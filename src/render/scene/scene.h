@@ -46,7 +46,8 @@ struct Scene {
   // Made by finish():
   bool moving = false;  // the camera or any shape moves while the shutter is open
   SceneBounds bounds;   // of all that is in it at any moment
-  LightPicker lightPicker;
+  // How probable each light is: for next-event estimation, and for a light subpath to start from.
+  LightPicker directPicker, emissionPicker;
   std::unique_ptr<RayTracer> tracer;
 
   LightContext lightContext() const { return {shapes, bounds}; }
