@@ -70,7 +70,7 @@ bool findPath(const SceneTarget& target, KernelMixture& kernels, int minLength,
   context.random = &chain;
   const double large = std::exchange(kernels.largeProbability, 0);
   for (long long i = 0; i < settings.mutations && !stopped(); ++i) {
-    Mutation& mutation = kernels.mutation(kernels.choose(current.path.technique, chain));
+    Mutation& mutation = kernels.mutation(kernels.choose(current.path, chain));
     proposed.forget();
     double logRatio = 0;
     if (!mutation.propose(current, proposed, context, logRatio) ||

@@ -15,24 +15,6 @@ constexpr long long kTimedEvery = 64;
 
 }  // namespace
 
-std::vector<std::string> KernelMixture::kindNames() const {
-  std::vector<std::string> names{std::string(large->name())};
-  for (const Small& s : small) names.emplace_back(s.mutation->name());
-  return names;
-}
-
-std::size_t KernelMixture::choose(const Technique& technique, Random& random) const {
-  if (random.uniform() < largeProbability) return 0;
-  const bool camera = technique.t >= 2;
-  double u = random.uniform();
-  std::size_t kind = 1;
-  for (; kind < small.size(); ++kind) {
-    u -= camera ? small[kind - 1].cameraShare : small[kind - 1].lightShare;
-    if (u < 0) break;
-  }
-  return kind;
-}
-
 Chain::Chain(const Target& target, const Path& start, Random random)
     : target_(target),
       current_(std::make_unique<ChainState>(target.maxLength())),
@@ -68,7 +50,7 @@ void Chain::step(KernelMixture& kernels, ChainFilms& films, ChainStatistics& sta
   RaySeconds rays(context.timed);
   const double start = context.timed ? wallClock() : 0;
 
-  const std::size_t kind = kernels.choose(current_->path.technique, random_);
+  const std::size_t kind = kernels.choose(current_->path, random_);
   Mutation* const mutation = &kernels.mutation(kind);
 
   proposed_->forget();
@@ -77,6 +59,7 @@ void Chain::step(KernelMixture& kernels, ChainFilms& films, ChainStatistics& sta
   const bool made = mutation->propose(*current_, *proposed_, context, logRatio);
   double acceptance = 0;
   if (made) {
+    logRatio += kernels.logRatio(kind, current_->path, proposed_->path);
     acceptance = acceptanceProbability(current_->path, proposed_->path, logRatio);
   } else if (!proposed_->path.finite) {
     if (statistics.notFinite++ == 0)
@@ -87,8 +70,8 @@ void Chain::step(KernelMixture& kernels, ChainFilms& films, ChainStatistics& sta
   weight_ += 1 - acceptance;
   AcceptanceCount& count =
       statistics.acceptance[kind][static_cast<std::size_t>(current_->path.technique.length())];
-  ++count.proposed;
-  count.expected += acceptance;
+  count.add(acceptance);
+  statistics.levels[kind][KernelMixture::at(kernels.level(current_->path.target))].add(acceptance);
   if (kind == 0) {
     const double estimate = kernels.large->lastEstimate();
     statistics.largeSteps.add(estimate);

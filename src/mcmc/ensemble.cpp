@@ -40,7 +40,7 @@ ChainEnsemble::ChainEnsemble(const Scene& scene, const MetropolisMethod& method,
       threads_(request.threads),
       maxLength_(maxLength),
       chains_(std::max(options.integer("chains"), 1)),
-      epochs_(options.boolean("importanceMap")),
+      useMap_(options.boolean("importanceMap")),
       target_(scene, maxLength, importance_),
       techniques_(minLength, maxLength) {
   const std::vector<double>& weights = bootstrap.techniqueLuminance();
@@ -76,7 +76,6 @@ void ChainEnsemble::run(int index, long long steps) {
 }
 
 bool ChainEnsemble::epochIsOver() const {
-  if (!epochs_) return false;
   long long mutations = 0;
   for (const Group& group : groups_) mutations += group.statistics.mutations;
   const double pixels = static_cast<double>(scene_.film.width) * scene_.film.height;
@@ -149,24 +148,30 @@ void ChainEnsemble::nextEpoch(const Image* direct) {
   epoch_ = {epoch_.number + 1, total.mutations, total.largeSteps.count};
 
   const double brightness = luminance(total).mean;
-  const Image sampled = past_.image(scene_.film, brightness);
-  Image picture = sampled;
-  if (direct)
-    for (std::size_t i = 0; i < picture.pixels.size(); ++i) picture.pixels[i] += direct->pixels[i];
-  const double perPixel = static_cast<double>(total.mutations) /
-                          (static_cast<double>(scene_.film.width) * scene_.film.height);
-  const int cell =
-      std::max(1, static_cast<int>(std::lround(std::sqrt(kMutationsPerCell / perPixel))));
-  const ImportanceMap next(picture, sampled, cell);
+  const ImportanceMap next = useMap_ ? nextMap(brightness, total.mutations, direct) : importance_;
   const std::vector<Path> starts = resampled(next);
   importance_ = next;
   parallelFor(threads_, groups(), [&](int g) {
     Group& group = groups_[static_cast<std::size_t>(g)];
     group.films.clear();
     group.kernels.brightness = brightness;
+    group.kernels.learn(total);
     for (std::size_t i = 0; i < group.chains.size(); ++i)
       group.chains[i]->restart(starts[static_cast<std::size_t>(g) + i * groups_.size()]);
   });
+}
+
+ImportanceMap ChainEnsemble::nextMap(double brightness, long long mutations,
+                                     const Image* direct) const {
+  const Image sampled = past_.image(scene_.film, brightness);
+  Image picture = sampled;
+  if (direct)
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) picture.pixels[i] += direct->pixels[i];
+  const double perPixel = static_cast<double>(mutations) /
+                          (static_cast<double>(scene_.film.width) * scene_.film.height);
+  const int cell =
+      std::max(1, static_cast<int>(std::lround(std::sqrt(kMutationsPerCell / perPixel))));
+  return ImportanceMap(picture, sampled, cell);
 }
 
 // Systematic resampling: state k is taken floor or ceil of (its share) * chains times.

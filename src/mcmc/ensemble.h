@@ -11,7 +11,7 @@ struct MetropolisMethod;
 
 // Chains run in epochs. In the first, the target is the luminance; each of the later ones, three times
 // as long as all before it together, divides it by what the picture is known to look like by then
-// (ImportanceMap), unless the options switch that off. The chains' states go over to the new target by
+// (ImportanceMap), unless the options switch that off, and mixes its kernels as they have done so far. The chains' states go over to the new target by
 // importance resampling. Every epoch's image by itself tends to the right one; the result is their
 // mean, each with its number of mutations.
 class ChainEnsemble {
@@ -67,6 +67,8 @@ class ChainEnsemble {
     double mean, error;
   };
   Luminance luminance(const ChainStatistics& total) const;
+  // By the picture of all past epochs, of so many mutations, and what the chains leave out.
+  ImportanceMap nextMap(double brightness, long long mutations, const Image* direct) const;
   // A start for each chain under the next map: their states, in proportion to what the new target is
   // of the present one.
   std::vector<Path> resampled(const ImportanceMap& next) const;
@@ -75,7 +77,7 @@ class ChainEnsemble {
   const Bootstrap& bootstrap_;
   std::uint64_t seed_;
   int threads_, maxLength_, chains_;
-  bool epochs_;
+  bool useMap_;
   ImportanceMap importance_;
   SceneTarget target_;
   TechniqueDistribution techniques_;

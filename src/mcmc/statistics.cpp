@@ -25,12 +25,17 @@ void Profile::add(const Profile& other) {
 
 ChainStatistics::ChainStatistics(int mutationKinds, int maxLength)
     : acceptance(static_cast<std::size_t>(mutationKinds),
-                 std::vector<AcceptanceCount>(static_cast<std::size_t>(maxLength) + 1)) {}
+                 std::vector<AcceptanceCount>(static_cast<std::size_t>(maxLength) + 1)),
+      levels(static_cast<std::size_t>(mutationKinds),
+             std::vector<AcceptanceCount>(2 * kHighestLevel + 1)) {}
 
 void ChainStatistics::add(const ChainStatistics& other) {
-  for (std::size_t kind = 0; kind < acceptance.size(); ++kind)
-    for (std::size_t length = 0; length < acceptance[kind].size(); ++length)
-      acceptance[kind][length].add(other.acceptance[kind][length]);
+  const auto addAll = [](auto& to, const auto& from) {
+    for (std::size_t kind = 0; kind < to.size(); ++kind)
+      for (std::size_t i = 0; i < to[kind].size(); ++i) to[kind][i].add(from[kind][i]);
+  };
+  addAll(acceptance, other.acceptance);
+  addAll(levels, other.levels);
   derivatives.computed += other.derivatives.computed;
   derivatives.notFinite += other.derivatives.notFinite;
   largeSteps.add(other.largeSteps);
@@ -49,14 +54,17 @@ nlohmann::json ChainStatistics::json(const std::vector<std::string>& kindNames) 
   nlohmann::json kinds = nlohmann::json::object();
   for (std::size_t kind = 0; kind < acceptance.size(); ++kind) {
     AcceptanceCount all;
-    nlohmann::json byLength = nlohmann::json::object();
-    for (std::size_t length = 0; length < acceptance[kind].size(); ++length) {
-      const AcceptanceCount& count = acceptance[kind][length];
-      all.add(count);
-      if (count.proposed > 0) byLength[std::to_string(length)] = rate(count);
-    }
-    kinds[kindNames[kind]] = rate(all);
-    kinds[kindNames[kind]]["by path length"] = byLength;
+    const auto table = [&](const std::vector<AcceptanceCount>& counts, int first) {
+      nlohmann::json result = nlohmann::json::object();
+      for (std::size_t i = 0; i < counts.size(); ++i)
+        if (counts[i].proposed > 0)
+          result[std::to_string(first + static_cast<int>(i))] = rate(counts[i]);
+      return result;
+    };
+    for (const AcceptanceCount& count : acceptance[kind]) all.add(count);
+    nlohmann::json& entry = kinds[kindNames[kind]] = rate(all);
+    entry["by path length"] = table(acceptance[kind], 0);
+    entry["by level of the target"] = table(levels[kind], -kHighestLevel);
   }
   const auto share = [&](double seconds) {
     return profile.total > 0 ? seconds / profile.total : 0.0;

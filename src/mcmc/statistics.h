@@ -12,6 +12,10 @@ namespace h2mc {
 struct AcceptanceCount {
   long long proposed = 0;
   double expected = 0;  // sum of acceptance probabilities
+  void add(double acceptance) {
+    ++proposed;
+    expected += acceptance;
+  }
   void add(const AcceptanceCount& other) {
     proposed += other.proposed;
     expected += other.expected;
@@ -44,12 +48,16 @@ struct Profile {
   void add(const Profile& other);
 };
 
+// How bright a state is: the binary logarithm of its target over the mean, rounded down, between minus and
+// plus this.
+inline constexpr int kHighestLevel = 20;
+
 // One group of chains' tallies, merged in the groups' order.
 struct ChainStatistics {
   ChainStatistics(int mutationKinds, int maxLength);
 
-  // [kind][path length]
-  std::vector<std::vector<AcceptanceCount>> acceptance;
+  std::vector<std::vector<AcceptanceCount>> acceptance;  // [kind][path length]
+  std::vector<std::vector<AcceptanceCount>> levels;  // [kind][level of the target + kHighestLevel]
   DerivativeCounts derivatives;
   Moments largeSteps;  // target over density: estimates of the mean luminance
   Profile profile;
