@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace h2mc {
 
@@ -52,9 +53,12 @@ bool BidirectionalLargeStep::propose(ChainState& current, ChainState& proposed,
   Path& path = proposed.path;
   path.technique = connections_[picked].connection.technique;
   path.sample = sampler_.primarySample(path.technique);
-  if (!target_.evaluate(path)) return false;
-  proposed.bidirectional = sum;
 
+  // Whether it is accepted is decided here, by its own random number: W is at least the present path's
+  // target, so that most of what is rejected needs no other connections of the present sample, and only
+  // what is accepted is traced.
+  const double threshold = random.uniformDouble();
+  if (sum < threshold * current.path.target) return false;
   if (!(current.bidirectional > 0)) {
     double whole = 0;
     sampler_.complete(
@@ -63,7 +67,9 @@ bool BidirectionalLargeStep::propose(ChainState& current, ChainState& proposed,
     // The path itself is among the connections; rounding may not make it vanish.
     current.bidirectional = std::max(whole, double(current.path.target));
   }
-  logRatio = std::log(sum / path.target) - std::log(current.bidirectional / current.path.target);
+  if (sum < threshold * current.bidirectional || !target_.evaluate(path)) return false;
+  proposed.bidirectional = sum;
+  logRatio = std::numeric_limits<double>::infinity();
   return true;
 }
 
