@@ -6,22 +6,20 @@
 #include <cmath>
 #include <numeric>
 
+#include "ad/symmetric_eigen.h"
+
 namespace h2mc {
 namespace {
 
-// v^T H v, H as its lower triangle by rows.
-double quadraticForm(const std::vector<double>& hessian, const std::vector<double>& v) {
-  double sum = 0;
-  for (std::size_t i = 0, k = 0; i < v.size(); ++i)
-    for (std::size_t j = 0; j <= i; ++j, ++k) sum += (i == j ? 1 : 2) * hessian[k] * v[i] * v[j];
-  return sum;
-}
-
-// What the Gaussian was made of, of which it keeps the eigenvectors.
 void decompose(const Derivative& derivative, LocalModel& model) {
   const int n = model.dimension;
   Gaussian gaussian;
-  if (!hamiltonianGaussian(derivative, model.settings, gaussian)) {
+  ad::SymmetricEigen<kMaxDerivativeDimension> eigen;
+  double matrix[kMaxDerivativeDimension * kMaxDerivativeDimension];
+  for (int i = 0, k = 0; i < n; ++i)
+    for (int j = 0; j <= i; ++j, ++k) matrix[i * n + j] = derivative.hessian[k];
+  // The Gaussian makes the same decomposition: its vectors come in the same order.
+  if (!hamiltonianGaussian(derivative, model.settings, gaussian) || !eigen.compute(matrix, n, n)) {
     model.reason = "the eigenvalues of its Hessian were not found";
     return;
   }
@@ -30,10 +28,10 @@ void decompose(const Derivative& derivative, LocalModel& model) {
   model.hessian.assign(derivative.hessian, derivative.hessian + n * (n + 1) / 2);
   for (int i = 0; i < n; ++i) {
     EigenDirection e;
+    e.value = eigen.value(i);
     e.deviation = gaussian.deviation[i];
     e.mean = gaussian.mean[i];
-    e.vector.assign(gaussian.vectors + i * n, gaussian.vectors + (i + 1) * n);
-    e.value = quadraticForm(model.hessian, e.vector);
+    e.vector.assign(eigen.vector(i), eigen.vector(i) + n);
     e.slope = dotProduct(e.vector, model.gradient);
     model.eigen.push_back(std::move(e));
   }

@@ -20,8 +20,8 @@ constexpr auto kParameters = withShared(std::array{
 });
 
 // Of a Hamiltonian step, in isotropic ones, which mostly end where they turn dark: measured on the scenes
-// of this project it is 2 to 4.
-constexpr double kHamiltonianCost = 3;
+// of this project it is 3 to 5.
+constexpr double kHamiltonianCost = 4;
 
 std::vector<KernelMixture::Small> smallSteps(const SceneTarget& target, const OptionSet& options) {
   const HamiltonianSettings settings = hamiltonianSettings(options);

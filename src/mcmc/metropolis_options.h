@@ -18,7 +18,7 @@ inline constexpr Parameter kMetropolisParameters[] = {
     {"chains", ParameterType::kInteger, "512", "independent Markov chains"},
     {"bootstrapSamples", ParameterType::kInteger, "100000",
      "bidirectional samples that place the chains and give the first estimate of the brightness"},
-    {"largeStepProbability", ParameterType::kNumber, "0.1", "share of large steps"},
+    {"largeStepProbability", ParameterType::kNumber, "0.2", "share of large steps"},
     {"largeStep", ParameterType::kString, "bidirectional",
      "what a large step proposes: a connection of a whole bidirectional sample, or one technique",
      "bidirectional|multiplexed"},
