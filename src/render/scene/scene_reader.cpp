@@ -62,11 +62,14 @@ void keepUsedMaterials(Scene& scene) {
 }  // namespace
 
 Scene readScene(const std::string& file, const ReadOptions& options) {
-  const auto document = loadSceneDocument(file, options.defines);
-  checkVersion(document->root);
+  return makeScene(*loadSceneDocument(file, options.defines), options);
+}
+
+Scene makeScene(const SceneDocument& document, const ReadOptions& options) {
+  checkVersion(document.root);
   Scene scene;
-  scene.file = file;
-  ReaderContext context(*document, scene);
+  scene.file = document.root.file->name;
+  ReaderContext context(document, scene);
 
   const XmlElement* sensor = nullptr;
   const XmlElement* integrator = nullptr;
@@ -77,7 +80,7 @@ Scene readScene(const std::string& file, const ReadOptions& options) {
                         "first at " + describe(slot->place()));
     slot = &element;
   };
-  for (const XmlElement& child : document->root.children) {
+  for (const XmlElement& child : document.root.children) {
     if (child.name == "sensor" || child.name == "camera") {
       once(sensor, child, "camera");
     } else if (child.name == "integrator") {
@@ -91,11 +94,11 @@ Scene readScene(const std::string& file, const ReadOptions& options) {
   if (integrator) readIntegrator(context, *integrator, options.integrators);
   if (dpt) readDptBlock(context, *dpt, options.integrators);
   if (sensor) readSensor(context, *sensor, options);
-  for (const XmlElement& child : document->root.children) {
+  for (const XmlElement& child : document.root.children) {
     if (child.name == "shape") readShape(context, child);
     if (child.name == "emitter" || child.name == "luminaire") readLight(context, child);
   }
-  for (const XmlElement& child : document->root.children) {
+  for (const XmlElement& child : document.root.children) {
     if (child.name != "bsdf" && child.name != "texture") continue;
     if (context.isUsed(child)) continue;
     checkUnused(context, child);
@@ -104,10 +107,10 @@ Scene readScene(const std::string& file, const ReadOptions& options) {
                  (id.empty() ? "at " + describe(child.place()) : "\"" + id + "\""));
   }
   if (!sensor)
-    throw sourceError(document->root.place(), "the scene has no camera",
+    throw sourceError(document.root.place(), "the scene has no camera",
                       "expected <sensor type=\"perspective\">");
   if (scene.lights.empty())
-    throw sourceError(document->root.place(), "the scene has no light",
+    throw sourceError(document.root.place(), "the scene has no light",
                       "expected an <emitter> that emits something");
   keepUsedMaterials(scene);
   scene.finish();
