@@ -28,7 +28,8 @@ struct PictureComparison {
   bool resolved = false;
   // Largest of three differences in their standard errors: of the mean luminance, and of the luminance's
   // balance between left and right and between top and bottom. A chain's brightness comes from
-  // independent samples, and the balances are what the chains themselves have to get right.
+  // independent samples, and the balances are what the chains themselves have to get right. To the
+  // latter's standard errors a hundredth of the mean is added, for the shortness of the chains.
   double z = 0;
   long long brokenPixels = 0;  // not finite, in any of the pictures
   long long notFinite = 0;     // contributions

@@ -31,8 +31,10 @@ bool isCalled(const XmlElement& parameter, std::string_view name) {
   return !written.empty() && snakeCase(written) == snakeCase(name);
 }
 
-XmlElement* findParameter(XmlElement& element, std::string_view name) {
-  for (XmlElement& child : element.children)
+// Element is XmlElement or const XmlElement.
+template <class Element>
+Element* findParameter(Element& element, std::string_view name) {
+  for (Element& child : element.children)
     if (isCalled(child, name)) return &child;
   return nullptr;
 }
@@ -144,6 +146,44 @@ void addOperations(XmlElement& element, const std::vector<XmlElement>& operation
     for (XmlElement& key : toWorld->children) addTo(key);
   else
     addTo(*toWorld);
+}
+
+// Calls look(element) for every element, parents first.
+void forEach(const XmlElement& element, const std::function<void(const XmlElement&)>& look) {
+  look(element);
+  for (const XmlElement& child : element.children) forEach(child, look);
+}
+
+// The matrix of its toWorld, of the first keyframe's where it moves.
+glm::dmat4 matrixOf(const XmlElement& element) {
+  const XmlElement* const toWorld = findParameter(element, "toWorld");
+  if (!toWorld) return glm::dmat4(1);
+  if (toWorld->name == "animation") return readAnimation(*toWorld)[0].matrix;
+  return glm::dmat4(readTransform(*toWorld));
+}
+
+glm::dvec3 placeOf(const XmlElement& element) {
+  if (const XmlElement* const position = findParameter(element, "position"))
+    return readVector(*position);
+  const XmlElement* const center = findParameter(element, "center");
+  return glm::dvec3(matrixOf(element) *
+                    glm::dvec4(center ? readVector(*center) : glm::dvec3(0), 1));
+}
+
+double largest(const glm::dvec3& c) { return std::max({c.x, c.y, c.z}); }
+
+// The largest channel of a colour that scaleColor can multiply; infinite for one that it can't.
+double largestColor(const SceneDocument& document, const XmlElement& element,
+                    const std::string& name) {
+  const XmlElement* const given = findParameter(element, name);
+  if (!given) return 1;
+  if (isReference(*given)) return INFINITY;
+  if (given->name != "texture") return largest(glm::dvec3(readColor(document, *given)));
+  if (typeOf(*given) != "checkerboard" || !findParameter(*given, "color0") ||
+      !findParameter(*given, "color1"))
+    return INFINITY;
+  return std::max(largestColor(document, *given, "color0"),
+                  largestColor(document, *given, "color1"));
 }
 
 }  // namespace
@@ -258,6 +298,41 @@ int moveScene(SceneDocument& document, double scale, const glm::dvec3& offset) {
     }
     return false;
   });
+}
+
+ScenePlaces placesOf(const SceneDocument& document) {
+  ScenePlaces places;
+  bool hasCamera = false;
+  forEach(document.root, [&](const XmlElement& element) {
+    const std::string type = typeOf(element);
+    if (element.name == "sensor" || element.name == "camera") {
+      places.camera = placeOf(element);
+      hasCamera = true;
+    } else if (element.name == "shape") {
+      if (type != "deforming") places.things.push_back(placeOf(element));
+    } else if (isEmitter(element) && (type == "point" || type == "spot")) {
+      places.things.push_back(placeOf(element));
+    }
+  });
+  if (!hasCamera) places.things.clear();
+  return places;
+}
+
+double brightestLight(const SceneDocument& document) {
+  double radiance = 0, intensity = 0;
+  forEach(document.root, [&](const XmlElement& element) {
+    if (!isEmitter(element)) return;
+    const std::string type = typeOf(element), color = colorOf(type);
+    if (!color.empty()) {
+      double& brightest = color == "intensity" ? intensity : radiance;
+      brightest = std::max(brightest, largestColor(document, element, color));
+    } else if (type == "envmap") {
+      const XmlElement* const scale = findParameter(element, "scale");
+      radiance = std::max(radiance, scale ? readNumber(*scale, "value") : 1.0);
+    }
+  });
+  const double brightest = radiance > 0 ? radiance : intensity;
+  return std::isfinite(brightest) ? brightest : 0;
 }
 
 }  // namespace h2mc

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "render/scene/scene_document.h"
 
@@ -34,5 +35,19 @@ int shrinkLights(SceneDocument& document, double share);
 // planes. What point and spot lights emit grows with scale^2, so that the picture stays the same.
 // Precondition: scale > 0.
 int moveScene(SceneDocument& document, double scale, const glm::dvec3& offset);
+
+// Where things stand, to float's precision: shapes and point lights by the middle of their own
+// coordinates, at the first keyframe where they move. No things where there is no camera. Throws
+// SceneError for what can't be read.
+struct ScenePlaces {
+  glm::dvec3 camera{0};
+  std::vector<glm::dvec3> things;
+};
+ScenePlaces placesOf(const SceneDocument& document);
+
+// The largest number that a light emits in any channel: radiance or irradiance, or the intensity of
+// point lights where there are no others. 0 where scaleRadiance could not multiply all of them. Throws
+// SceneError for what can't be read.
+double brightestLight(const SceneDocument& document);
 
 }  // namespace h2mc

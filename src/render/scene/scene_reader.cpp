@@ -1,6 +1,9 @@
 #include "render/scene/scene_reader.h"
 
+#include <fmt/format.h>
+
 #include "render/scene/element_properties.h"
+#include "render/scene/normalise.h"
 #include "render/scene/part_readers.h"
 #include "render/scene/value_text.h"
 
@@ -59,17 +62,32 @@ void keepUsedMaterials(Scene& scene) {
     shape.material = index[static_cast<std::size_t>(shape.material)];
 }
 
+// What a user who looks at coordinates or targets should know.
+void noteUnits(ReaderContext& context) {
+  const Scene& scene = context.scene;
+  if (scene.origin != glm::dvec3(0))
+    context.note(fmt::format("far from the origin: coordinates are relative to ({}, {}, {})",
+                             scene.origin.x, scene.origin.y, scene.origin.z));
+  if (scene.radianceUnit != 1)
+    context.note(
+        fmt::format("computed in units of {} of the scene's radiance", scene.radianceUnit));
+}
+
 }  // namespace
 
 Scene readScene(const std::string& file, const ReadOptions& options) {
   return makeScene(*loadSceneDocument(file, options.defines), options);
 }
 
-Scene makeScene(const SceneDocument& document, const ReadOptions& options) {
+Scene makeScene(SceneDocument& document, const ReadOptions& options) {
   checkVersion(document.root);
   Scene scene;
   scene.file = document.root.file->name;
+  const SceneUnits units = normalise(document);
+  scene.origin = units.origin;
+  scene.radianceUnit = units.radiance;
   ReaderContext context(document, scene);
+  noteUnits(context);
 
   const XmlElement* sensor = nullptr;
   const XmlElement* integrator = nullptr;

@@ -24,7 +24,7 @@ struct ReadOptions {
 Scene readScene(const std::string& file, const ReadOptions& options);
 
 // The same of a document that has been loaded, and perhaps changed since; the defines are the
-// document's and not looked at.
-Scene makeScene(const SceneDocument& document, const ReadOptions& options);
+// document's and not looked at. The document is normalised.
+Scene makeScene(SceneDocument& document, const ReadOptions& options);
 
 }  // namespace h2mc
