@@ -40,7 +40,7 @@ asan_tests() {
   unit=$!
   "$root/build/asan/tests/h2mc_derivative_tests" --gtest_brief=1 --gtest_filter=-'*Slow*' || status=1
   wait "$unit" || status=1
-  ctest --test-dir "$root/build/asan" -j2 --output-on-failure -L '^cli$' -E 'slow|cli_(render|compare|demo|gradcheck|inspect|motion)' || status=1
+  ctest --test-dir "$root/build/asan" -j2 --output-on-failure -L '^cli$' -E 'slow|cli_(render|compare|demo|gradcheck|stress|inspect|motion)' || status=1
   unset ASAN_OPTIONS UBSAN_OPTIONS
   return "$status"
 }

@@ -21,7 +21,7 @@ TEST_P(Roughness, From1To1e4th) {
         distribution + "\"/><float name=\"alpha\" value=\"" + alpha + "\"/></bsdf>");
     // The lamp's picture in an almost perfect mirror is for bdpt to find.
     expectSound(sceneOf(folder, text), std::string(bsdf) + " " + distribution + " " + alpha,
-                {.fallbackShare = 0.01, .resolved = std::stod(alpha) >= 0.1});
+                {.resolved = std::stod(alpha) >= 0.1});
   }
 }
 
@@ -89,7 +89,7 @@ TEST(TotalReflection, AtTheCriticalAngle) {
           shape("sphere", "<scale value=\"20\"/>",
                 "<boolean name=\"flipNormals\" value=\"true\"/>" + diffuse(0.2) + emitter("1")));
       expectSound(sceneOf(folder, text), "critical angle, fov " + std::to_string(fov),
-                  {.fallbackShare = 0.01, .resolved = false});
+                  {.resolved = false});
     }
 }
 
