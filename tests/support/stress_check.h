@@ -24,8 +24,8 @@ struct Demands {
 
 inline StressSettings quickStress() {
   StressSettings settings;
-  settings.paths = 80;
-  settings.samples = 24000;
+  settings.paths = 60;
+  settings.samples = 16000;
   settings.maxLength = 5;
   settings.seed = 7;
   return settings;
