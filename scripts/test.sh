@@ -36,11 +36,12 @@ release_tests() {
 asan_tests() {
   local unit status=0
   export ASAN_OPTIONS=detect_leaks=0:strict_string_checks=1:detect_stack_use_after_return=1 UBSAN_OPTIONS=print_stacktrace=1
-  "$root/build/asan/tests/h2mc_unit_tests" --gtest_brief=1 --gtest_filter=-'*Slow*' &
+  { "$root/build/asan/tests/h2mc_unit_tests" --gtest_brief=1 --gtest_filter=-'*Slow*' &&
+    "$root/build/asan/tests/h2mc_stress_tests" --gtest_brief=1 --gtest_filter=-'*Slow*'; } &
   unit=$!
   "$root/build/asan/tests/h2mc_derivative_tests" --gtest_brief=1 --gtest_filter=-'*Slow*' || status=1
   wait "$unit" || status=1
-  ctest --test-dir "$root/build/asan" -j2 --output-on-failure -L '^cli$' -E 'slow|cli_(render|compare|demo|gradcheck|inspect|motion)' || status=1
+  ctest --test-dir "$root/build/asan" -j2 --output-on-failure -L '^cli$' -E 'slow|cli_(render|compare|demo|gradcheck|stress|inspect|motion)' || status=1
   unset ASAN_OPTIONS UBSAN_OPTIONS
   return "$status"
 }
@@ -82,10 +83,10 @@ fi
 
 if [[ $quick == no ]]; then
   if step "build: address and undefined-behaviour sanitizers" \
-      build asan all "-DH2MC_TEST_FOLDERS=unit;derivative" -DH2MC_BUILD_BENCHMARKS=OFF; then
-    step "tests: unit, derivative and cli under the sanitizers" asan_tests
+      build asan all "-DH2MC_TEST_FOLDERS=unit;derivative;stress" -DH2MC_BUILD_BENCHMARKS=OFF; then
+    step "tests: unit, derivative, stress and cli under the sanitizers" asan_tests
   else
-    skip "tests: unit, derivative and cli under the sanitizers" "not built"
+    skip "tests: unit, derivative, stress and cli under the sanitizers" "not built"
   fi
   if command -v clang++ >/dev/null; then
     if step "build: clang, warnings are errors" \

@@ -153,6 +153,12 @@ H2MC_AD_INLINE Dual2<T, N> expm1(const Dual2<T, N>& a) {
 }
 template <class T, int N>
 H2MC_AD_INLINE Dual2<T, N> log(const Dual2<T, N>& a) {
+  // Below the normal numbers 1 / a overflows, but that of a multiple doesn't.
+  if (a.v < std::numeric_limits<T>::min()) [[unlikely]] {
+    constexpr T kMultiple = T(1) / std::numeric_limits<T>::epsilon();
+    const Dual2<T, N> b = a * kMultiple;
+    return chainLog(b, std::log(b.v) - std::log(kMultiple), T(1) / b.v);
+  }
   return chainLog(a, std::log(a.v), T(1) / a.v);
 }
 template <class T, int N>

@@ -18,9 +18,10 @@ namespace h2mc {
 
 enum ExitCode {
   kSuccess = 0,
-  kCheckFailed = 1,  // diff, gradcheck: more than the tolerance; inspect: no light
-  kBadInput = 2,     // options, scene, images, paths
-  kFailed = 3,       // anything else: memory, disk, a mistake in the program
+  kCheckFailed =
+      1,          // diff, gradcheck: more than the tolerance; stress: a defect; inspect: no light
+  kBadInput = 2,  // options, scene, images, paths
+  kFailed = 3,    // anything else: memory, disk, a mistake in the program
   kInterrupted = 130,
 };
 
@@ -38,6 +39,7 @@ void addInfoCommand(CLI::App& app, Run& run);
 void addListCommand(CLI::App& app, Run& run);
 void addDiffCommand(CLI::App& app, Run& run);
 void addGradcheckCommand(CLI::App& app, Run& run);
+void addStressCommand(CLI::App& app, Run& run);
 void addCompareCommand(CLI::App& app, Run& run);
 void addDemoCommand(CLI::App& app, Run& run);
 void addInspectCommand(CLI::App& app, Run& run);

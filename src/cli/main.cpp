@@ -77,19 +77,21 @@ int run(int argc, char** argv) {
   app.failure_message(CLI::FailureMessage::simple);
   app.footer(
       "`h2mc COMMAND --help` explains a command's options.\n"
-      "Exit codes: 0 done, 1 a check failed (diff --tolerance, gradcheck) or a pixel is dark\n"
-      "(inspect), 2 wrong input, 3 any other failure, 130 interrupted.");
+      "Exit codes: 0 done, 1 a check failed (diff --tolerance, gradcheck, stress) or a pixel is\n"
+      "dark (inspect), 2 wrong input, 3 any other failure, 130 interrupted.");
   Run command;
   addRenderCommand(app, command);
   addInfoCommand(app, command);
   addListCommand(app, command);
   addDiffCommand(app, command);
   addGradcheckCommand(app, command);
+  addStressCommand(app, command);
   addCompareCommand(app, command);
   addDemoCommand(app, command);
   addInspectCommand(app, command);
 
-  const Names commands{"render", "info", "list", "diff", "gradcheck", "compare", "demo", "inspect"};
+  const Names commands{"render", "info",    "list", "diff",   "gradcheck",
+                       "stress", "compare", "demo", "inspect"};
   const std::string first = argc > 1 ? argv[1] : "";
   const bool known = std::find(commands.begin(), commands.end(), first) != commands.end();
   if (!first.empty() && first[0] != '-' && !known)

@@ -42,6 +42,7 @@ ProposalKind propose(const Scene& scene, Mutation& mutation, ChainState& state,
     to.technique = from.technique;
     to.sample.u.fill(kUnknown);
     to.sample.time = from.sample.time;
+    to.target = 0;
     // The light and camera subpaths that a large step completes the state with are drawn anew.
     state.bidirectional = 0;
     double logRatio = 0;
@@ -50,8 +51,9 @@ ProposalKind propose(const Scene& scene, Mutation& mutation, ChainState& state,
     Proposal p;
     if (made) p.acceptance = acceptanceProbability(from, to, logRatio);
     p.accepted = random.uniform() < p.acceptance;
-    kind.dark += !made;
-    if (made) {
+    const bool lit = to.target > 0;
+    kind.dark += !lit;
+    if (lit) {
       p.filmX = to.filmX;
       p.filmY = to.filmY;
     } else if (to.technique.t >= 2 && to.sample.u[0] >= 0 && to.sample.u[1] >= 0) {

@@ -51,8 +51,12 @@ bool BidirectionalLargeStep::propose(ChainState& current, ChainState& proposed,
   std::size_t picked = 0;
   while (picked + 1 < connections_.size() && (u -= connections_[picked].target) >= 0) ++picked;
   Path& path = proposed.path;
-  path.technique = connections_[picked].connection.technique;
+  const BidirectionalSampler::Connection& chosen = connections_[picked].connection;
+  path.technique = chosen.technique;
   path.sample = sampler_.primarySample(path.technique);
+  path.target = static_cast<float>(connections_[picked].target);
+  path.filmX = chosen.filmX;
+  path.filmY = chosen.filmY;
 
   // Whether it is accepted is decided here, by its own random number: W is at least the present path's
   // target, so that most of what is rejected needs no other connections of the present sample, and only

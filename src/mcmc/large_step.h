@@ -48,6 +48,9 @@ class MultiplexedLargeStep final : public LargeStep {
 // extended space, proposing a sample X' with connections i of target f_i' and picking i with
 // probability f_i' / W(X'), W = sum of f_i, is accepted with probability min(1, W(X') / W(X)): the
 // connection picked cancels. W varies less than any one technique's f.
+//
+// propose() decides by itself, and returns only what is accepted: of the rest it leaves technique, sample,
+// film position and target, but no vertices.
 class BidirectionalLargeStep final : public LargeStep {
  public:
   BidirectionalLargeStep(const SceneTarget& target, int minLength)

@@ -61,6 +61,7 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
   };
   const auto finished = [&](RenderResult result) {
     result.sampleUnit = "mutations";
+    toFileUnits(scene, result);
     if (split) direct.addTo(result);
     if (result.image.pixels.empty()) result.image = Image(scene.film.width, scene.film.height);
     result.statistics["mean luminance"] = result.meanLuminance;
@@ -112,7 +113,11 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
     callMark(mark, [&] { return chains.result(); });
   };
   plan.betweenRounds = [&] {
-    if (chains.epochIsOver()) chains.nextEpoch(split ? &direct.image() : nullptr);
+    if (!chains.epochIsOver()) return;
+    Image image;  // in the chains' units
+    if (split) image = direct.image();
+    for (Rgbf& pixel : image.pixels) pixel *= static_cast<float>(1 / scene.radianceUnit);
+    chains.nextEpoch(split ? &image : nullptr);
   };
   // Stopped before the chains began: one round, so that the image is whole.
   const std::atomic<bool> goOn{false};

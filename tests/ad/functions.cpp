@@ -30,6 +30,16 @@ TEST(AdFunctions, ChainRuleOfOneArgument) {
   });
 }
 
+// 1 / a is beyond float there.
+TEST(AdFunctions, LogarithmBelowTheNormalNumbers) {
+  using D = Dual2<float, 2>;
+  const D y = log(D::variable(1.f, 0) * 0x1p-130f);
+  EXPECT_FLOAT_EQ(y.v, std::log(2.f) * -130);
+  EXPECT_FLOAT_EQ(y.gradient(0), 1);
+  EXPECT_FLOAT_EQ(y.hessian(0, 0), -1);
+  EXPECT_EQ(y.gradient(1), 0);
+}
+
 TEST(AdFunctions, ChainRuleOfTwoArguments) {
   std::mt19937 random(2);
   forEachSize<17>([&](auto c) {

@@ -13,7 +13,20 @@ struct ToyMixture {
   double large, isotropic, hamiltonian;  // shares
   StepShape shape;
   float sigma;
+  bool learned =
+      false;  // the isotropic and the Hamiltonian share depend on the level of the target
 };
+
+// Has shares learned that leap from each level of the target to the next.
+inline void learnLeaps(KernelMixture& kernels) {
+  ChainStatistics statistics(kernels.kinds(), 2);
+  for (int level = -kHighestLevel; level <= kHighestLevel; ++level)
+    for (std::size_t kind = 1; kind < 3; ++kind) {
+      const bool good = (level + static_cast<int>(kind)) % 2 == 0;
+      statistics.levels[kind][KernelMixture::at(level)] = {1000, good ? 600. : 200.};
+    }
+  kernels.learn(statistics);
+}
 
 // All of the given techniques, of lengths 1 and 2, alike.
 inline TechniqueDistribution evenly(std::span<const Technique> techniques) {
@@ -37,6 +50,11 @@ inline KernelMixture toyKernels(const Target& target, const TechniqueDistributio
   settings.sigma = mixture.sigma;
   kernels.small.push_back({std::make_unique<HamiltonianStep>(target, settings), mixture.hamiltonian,
                            mixture.hamiltonian});
+  if (mixture.learned) {
+    kernels.brightness = 1;
+    for (KernelMixture::Small& s : kernels.small) s.cost = 1;
+    learnLeaps(kernels);
+  }
   return kernels;
 }
 

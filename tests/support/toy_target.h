@@ -42,11 +42,12 @@ class ToyTarget final : public Target {
   }
   static float chosen(float choice) { return choice < 0.3f ? 1.f : 0.25f; }
 
+  // `dimension` is the technique's, given so that it may be a constant.
   template <class T>
-  static T density(const Technique& technique, const T* u, const float* choice) {
+  static T density(const Technique& technique, int dimension, const T* u, const float* choice) {
     using S = Scalar<T>;
     T f = plane(u[0], u[1]) * S(brightness(technique));
-    for (int i = 2; i < technique.dimension(); i += 2) f = f * even(u[i]) * angle(u[i + 1]);
+    for (int i = 2; i < dimension; i += 2) f = f * even(u[i]) * angle(u[i + 1]);
     return technique.choices() > 0 ? T(f * S(chosen(choice[0]))) : f;
   }
 
@@ -54,7 +55,8 @@ class ToyTarget final : public Target {
     path.wraps = 0;
     for (int i = 3; i < path.technique.dimension(); i += 2) path.wraps |= CoordinateMask(1) << i;
     path.finite = true;
-    path.target = density(path.technique, path.sample.u.data(), path.sample.choice.data());
+    path.target = density(path.technique, path.technique.dimension(), path.sample.u.data(),
+                          path.sample.choice.data());
     path.contribution = Rgbf(path.target);
     path.filmX = path.sample.u[0];
     path.filmY = path.sample.u[1];
@@ -74,7 +76,7 @@ class ToyTarget final : public Target {
     using D = ad::Dual2<float, N>;
     D u[N];
     for (int i = 0; i < N; ++i) u[i] = D::variable(path.sample.u[static_cast<std::size_t>(i)], i);
-    const D f = ad::log(density(path.technique, u, path.sample.choice.data()));
+    const D f = ad::log(density(path.technique, N, u, path.sample.choice.data()));
     result.dimension = N;
     result.logTarget = f.v;
     for (int i = 0, k = 0; i < N; ++i) {

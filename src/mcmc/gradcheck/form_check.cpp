@@ -64,23 +64,40 @@ bool isRounding(const Scatter& scatter, int count, double allowed, bool triangle
   return norm(mean, triangle) <= allowed + 3 * std::sqrt(variance);
 }
 
+// What the errors of a gradient and of a Hessian are relative to.
+struct Scales {
+  double gradient, hessian;
+};
+Scales scalesOf(const ad::DerivativeValues& exact) {
+  const double hessian = std::max(1.0, norm(exact.hessian, true));
+  return {std::max(std::sqrt(hessian), norm(exact.gradient, false)), hessian};
+}
+
 }  // namespace
 
-FormCheck checkForm(const Scene& scene, const Path& path, const ad::DerivativeValues& exact,
-                    const DerivativeForm& form, const GradcheckSettings& settings) {
+FormCheck formErrors(const ad::DerivativeValues& found, const ad::DerivativeValues& exact) {
   FormCheck result;
-  ad::DerivativeValues found;
-  if (!form.differentiate(scene, path, found)) return result;
   if (!found.finite()) {
     result.verdict = FormVerdict::kNotFinite;
     return result;
   }
-  const double hessianScale = std::max(1.0, norm(exact.hessian, true));
-  const double gradientScale = std::max(std::sqrt(hessianScale), norm(exact.gradient, false));
+  const Scales scales = scalesOf(exact);
+  result.verdict = FormVerdict::kAgrees;
   result.value = static_cast<float>(std::abs(found.value - exact.value));
   result.gradient =
-      static_cast<float>(distance(found.gradient, exact.gradient, false) / gradientScale);
-  result.hessian = static_cast<float>(distance(found.hessian, exact.hessian, true) / hessianScale);
+      static_cast<float>(distance(found.gradient, exact.gradient, false) / scales.gradient);
+  result.hessian =
+      static_cast<float>(distance(found.hessian, exact.hessian, true) / scales.hessian);
+  return result;
+}
+
+FormCheck checkForm(const Scene& scene, const Path& path, const ad::DerivativeValues& exact,
+                    const DerivativeForm& form, const GradcheckSettings& settings) {
+  ad::DerivativeValues found;
+  if (!form.differentiate(scene, path, found)) return {};
+  FormCheck result = formErrors(found, exact);
+  if (result.verdict == FormVerdict::kNotFinite) return result;
+  const auto [gradientScale, hessianScale] = scalesOf(exact);
   const double tolerance = settings.floatTolerance;
   const auto within = [&](double error) { return error <= tolerance; };
   // The value of the float path itself is no business of the derivative's.

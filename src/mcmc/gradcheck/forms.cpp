@@ -1,28 +1,28 @@
 // The float forms of the derivative that gradcheck knows.
-#include "mcmc/gradcheck/gradcheck.h"
-#include "render/path/derivative.h"
+#include "mcmc/gradcheck/form_check.h"
 
 namespace h2mc {
-namespace {
 
-void copy(const Derivative& d, ad::DerivativeValues& result) {
+void copyDerivative(const Derivative& d, ad::DerivativeValues& result) {
   const int n = d.dimension;
   result.value = d.logTarget;
   result.gradient.assign(d.gradient, d.gradient + n);
   result.hessian.assign(d.hessian, d.hessian + n * (n + 1) / 2);
 }
 
+namespace {
+
 bool local(const Scene& scene, const Path& path, ad::DerivativeValues& result) {
   Derivative d;
   differentiateLocally(scene, path, d);
-  copy(d, result);
+  copyDerivative(d, result);
   return true;
 }
 
 bool plain(const Scene& scene, const Path& path, ad::DerivativeValues& result) {
   Derivative d;
   if (!differentiatePlainly(scene, path, d)) return false;
-  copy(d, result);
+  copyDerivative(d, result);
   return true;
 }
 

@@ -8,6 +8,7 @@
 #include "mcmc/metropolis_integrator.h"
 #include "render/integrator/parallel_rounds.h"
 #include "render/path/bidirectional.h"
+#include "render/path/path_text.h"
 
 namespace h2mc {
 namespace {
@@ -37,7 +38,7 @@ const char* nameOf(PathOrigin origin) {
 }
 
 std::vector<SampledPath> sampleBidirectional(const Scene& scene, int maxLength, int count,
-                                             std::uint64_t seed) {
+                                             std::uint64_t seed, NotFiniteCount* notFinite) {
   const TechniqueDistribution techniques(1, maxLength);
   const auto kinds = static_cast<std::size_t>(techniques.size());
   const std::size_t share = (static_cast<std::size_t>(count) + kinds - 1) / kinds;
@@ -49,9 +50,15 @@ std::vector<SampledPath> sampleBidirectional(const Scene& scene, int maxLength, 
     if (total == share * kinds) break;
     Random random(seed, kSampleStream, static_cast<std::uint64_t>(i));
     connections.clear();
-    sampler.sample(scene, random, -1, -1, 1, [&](const BidirectionalSampler::Connection& c) {
-      connections.push_back(c.technique);
-    });
+    const int broken = sampler.sample(
+        scene, random, -1, -1, 1,
+        [&](const BidirectionalSampler::Connection& c) { connections.push_back(c.technique); });
+    if (notFinite && broken > 0) {
+      if (notFinite->first.empty())
+        notFinite->first =
+            pathText(sampler.lastNotFinite(), sampler.primarySample(sampler.lastNotFinite()));
+      notFinite->count += broken;
+    }
     // One wanted path and one to fill up with from a sample: its connections resemble one another.
     std::size_t fewest = share;
     const Technique* wanted = nullptr;
@@ -100,7 +107,7 @@ std::vector<SampledPath> sampleBidirectional(const Scene& scene, int maxLength, 
 
 std::vector<SampledPath> sampleChains(const Scene& scene, int maxLength, int count,
                                       std::uint64_t seed, int threads,
-                                      const std::atomic<bool>* stop) {
+                                      const std::atomic<bool>* stop, ChainStatistics* statistics) {
   if (count <= 0) return {};
   const Bootstrap bootstrap(scene, 1, maxLength, kBootstrapSamples, seed, threads);
   if (!(bootstrap.luminance().mean() > 0)) return {};
@@ -111,9 +118,12 @@ std::vector<SampledPath> sampleChains(const Scene& scene, int maxLength, int cou
   const TechniqueDistribution techniques(1, maxLength);
   const int chains = std::min(kChains, count);
   std::vector<std::vector<SampledPath>> found(static_cast<std::size_t>(chains));
+  std::vector<ChainStatistics> counts(
+      static_cast<std::size_t>(chains),
+      ChainStatistics(makeKernels(method, target, techniques, options, 1).kinds(), maxLength));
   parallelFor(threads, chains, [&](int c) {
     KernelMixture kernels = makeKernels(method, target, techniques, options, 1);
-    ChainStatistics statistics(kernels.kinds(), maxLength);
+    ChainStatistics& own = counts[static_cast<std::size_t>(c)];
     MutationContext context;
     FilmSettings settings = scene.film;  // nobody looks at the picture
     settings.width = settings.height = 1;
@@ -127,13 +137,18 @@ std::vector<SampledPath> sampleChains(const Scene& scene, int maxLength, int cou
       // A little longer where it has not moved: the same path twice says nothing new.
       const PrimarySample before = chain.path().sample;
       for (int tries = 0; tries < 4 && (tries == 0 || chain.path().sample.u == before.u); ++tries)
-        for (int i = 0; i < kStride; ++i) chain.step(kernels, films, statistics, context);
+        for (int i = 0; i < kStride; ++i) chain.step(kernels, films, own, context);
       found[static_cast<std::size_t>(c)].push_back(
           {PathOrigin::kChain,
            (static_cast<std::uint64_t>(c) << 32) + static_cast<std::uint64_t>(k),
            chain.path().technique, chain.path().sample});
     }
+    own.derivatives = context.derivatives;
   });
+  if (statistics) {
+    *statistics = counts[0];
+    for (std::size_t c = 1; c < counts.size(); ++c) statistics->add(counts[c]);
+  }
   std::vector<SampledPath> paths;
   for (const auto& of : found) paths.insert(paths.end(), of.begin(), of.end());
   return paths;

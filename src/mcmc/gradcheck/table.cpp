@@ -132,12 +132,14 @@ std::string describePath(const Scene& scene, const SampledPath& sampled,
   std::string text = pathText(sampled.technique, sampled.sample) + "\n";
   ad::DerivativeCheck check;
   const PathCheck result = checkPath(scene, sampled, settings, &check);
-  if (!result.traced) return text + "  carries no light: target is zero\n";
   Path path(std::max(settings.maxLength, sampled.technique.length()));
   path.technique = sampled.technique;
   path.sample = sampled.sample;
   tracePath(scene, path);
+  // Where it broke off, its vertices are not all there.
+  if (!result.traced && path.finite) return text + "  carries no light: target is zero\n";
   text += describeVertices(scene, path);
+  if (!result.traced) return text + "  contribution is not finite\n";
   text += fmt::format("log target {:.9g} traced, {:.15g} in double (noise {:.1e})\n",
                       std::log(double(path.target)), check.value, check.noise);
   std::vector<ad::DerivativeValues> forms;

@@ -8,20 +8,24 @@ namespace h2mc {
 
 // Share of light reflected where it meets a medium of relative index `eta` (the far side's over the
 // near side's) at cosine c >= 0. With q = eta cos(theta_t): r_s = (c - q) / (c + q),
-// r_p = (eta^2 c - q) / (eta^2 c + q). Differentiable except at the critical angle.
+// r_p = (eta^2 c - q) / (eta^2 c + q). For indices near 1 both differences cancel; since
+// q^2 - c^2 = eta^2 - 1 they are multiples of that, and eta - 1 is exact. Differentiable except at the
+// critical angle.
 template <class T>
 T fresnelDielectric(const T& c, Scalar<T> eta) {
   using S = Scalar<T>;
   if (eta == S(1)) return T(0);
   return ofOne(c, [eta](const auto& c1) {
     using U = std::remove_cvref_t<decltype(c1)>;
-    const S eta2 = eta * eta;
-    const U q2 = c1 * c1 + (eta - S(1)) * (eta + S(1));
+    const S eta2 = eta * eta, difference = (eta - S(1)) * (eta + S(1));
+    const U c2 = c1 * c1;
+    const U q2 = c2 + difference;
     if (!(value(q2) > 0)) return U(S(1));
     const U q = ad::sqrt(q2);
-    const U p = c1 * eta2;
-    const U s = (c1 - q) / (c1 + q), t = (p - q) / (p + q);
-    return U((s * s + t * t) * S(0.5));
+    const U sumS = c1 + q, sumP = c1 * eta2 + q;
+    const U s = S(-difference) / (sumS * sumS);
+    const U p = (c2 * (eta2 + S(1)) - S(1)) * difference / (sumP * sumP);
+    return U((s * s + p * p) * S(0.5));
   });
 }
 

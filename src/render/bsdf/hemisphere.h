@@ -33,7 +33,9 @@ Vec3<T> fromPolar(const T& sinTheta, const T& cosTheta, const T& u1) {
 // Density cos(theta) / pi; u0 = sin^2(theta).
 template <class T>
 Vec3<T> sampleCosine(const T& u0, const T& u1) {
-  return fromPolar<T>(ad::sqrt(awayFromPole(u0)), ad::sqrt(T(Scalar<T>(1) - u0)), u1);
+  // The cosine is constant where the sine is: the direction is to stay a unit vector.
+  const T u = awayFromPole(u0);
+  return fromPolar<T>(ad::sqrt(u), ad::sqrt(T(Scalar<T>(1) - u)), u1);
 }
 
 // Into [0, 1), for coordinates that rounding may have put at 1 or just below 0.

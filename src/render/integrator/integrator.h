@@ -60,6 +60,9 @@ struct RenderResult {
   nlohmann::json statistics;
 };
 
+// Image and mean luminance from the scene's own units to those of its file.
+void toFileUnits(const Scene& scene, RenderResult& result);
+
 class Integrator {
  public:
   virtual ~Integrator() = default;

@@ -45,6 +45,7 @@ RenderResult resultOf(const Scene& scene, const std::vector<Group>& work, const 
     result.meanLuminanceError = std::sqrt(
         std::max(0.0, total.squares / n - result.meanLuminance * result.meanLuminance) / n);
   }
+  toFileUnits(scene, result);
   result.statistics = {{"samples", total.samples},
                        {"samples per pixel", rounds.rounds},
                        {"samples per second", n / std::max(result.wallSeconds, 1e-9)},

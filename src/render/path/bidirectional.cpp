@@ -103,7 +103,10 @@ bool BidirectionalSampler::join(const Scene& scene, Connection& connection, int&
     ends.u1 = direct.u1;
   }
   const Joined joined = h2mc::join(scene, ends);
-  notFinite += !joined.finite;
+  if (!joined.finite) {
+    ++notFinite;
+    notFinite_ = connection.technique;
+  }
   connection.contribution = joined.contribution;
   if (t == 1) {
     connection.filmX = joined.filmX;

@@ -41,6 +41,9 @@ class BidirectionalSampler {
     return joinAll(scene, minLength, visit);
   }
 
+  // The technique of the last contribution that was not finite.
+  const Technique& lastNotFinite() const { return notFinite_; }
+
   // The primary sample with which tracePath gives the last sample's connection of this technique.
   PrimarySample primarySample(const Technique& technique) const;
 
@@ -71,7 +74,8 @@ class BidirectionalSampler {
   Path cameraPath_, lightPath_;
   int cameraVertices_ = 0;  // traced, after the eye
   int lightVertices_ = 0;   // traced, after the one on the light
-  bool escaped_ = false;    // the edge after the last camera vertex leaves the scene
+  Technique notFinite_;
+  bool escaped_ = false;  // the edge after the last camera vertex leaves the scene
   // Each camera vertex samples a light of its own.
   struct Direct {
     float u0, u1, choice;

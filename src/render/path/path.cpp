@@ -184,7 +184,8 @@ Step stepLight(const Scene& scene, Path& path, int i) {
 bool traceLight(const Scene& scene, Path& path) {
   const Technique& technique = path.technique;
   if (technique.s == 0) return true;
-  if (!pickLight(scene, technique.s, path.sample.choice[static_cast<std::size_t>(technique.lightPick())],
+  if (!pickLight(scene, technique.s,
+                 path.sample.choice[static_cast<std::size_t>(technique.lightPick())],
                  path.lightIndex, path.lightPrimitive))
     return false;
   const unsigned wraps = std::visit(

@@ -11,6 +11,8 @@
 // densities themselves, so that float neither overflows nor loses small terms.
 #pragma once
 
+#include <algorithm>
+
 #include "render/bsdf/material.h"
 #include "render/geometry/surface.h"
 #include "render/scene/scene.h"
@@ -57,12 +59,18 @@ struct Scattering {
 };
 
 // sqrt(a^2 + b^2) where both are >= 0. No derivative of the root at 0 is ever needed: zeros are
-// structural (delta lobes, delta lights) and decided by value.
+// structural (delta lobes, delta lights) and decided by value. Where the squares, or the Hessian of the
+// root, would leave float's range, both are first divided by the larger one.
 template <class T>
 T rootOfSquares(const T& a, const T& b) {
   if (value(b) == 0) return a;
   if (value(a) == 0) return b;
-  return sqrt(a * a + b * b);
+  using S = Scalar<T>;
+  const S larger = std::max(value(a), value(b));
+  if (larger > S(1e-6) && larger < S(1e6)) return sqrt(a * a + b * b);
+  const S inverse = S(1) / larger;
+  const T x = a * inverse, y = b * inverse;
+  return sqrt(x * x + y * y) * larger;
 }
 
 inline const Material& materialAt(const Scene& scene, PrimitiveId id) {

@@ -41,7 +41,12 @@ struct Scene {
   std::map<std::string, std::string, std::less<>> options;
   int samplesPerPixel = 0;            // the sampler's sampleCount; 0 when it does not say
   std::optional<std::uint64_t> seed;  // where the scene gives one
-  std::vector<std::string> notes;     // accepted and not used, left out because nothing needs it
+  // Coordinates are relative to this point of the scene file's world, radiances in multiples of this
+  // number of its units (normalise.h); (0, 0, 0) and 1 for all but extreme scenes. Pictures that
+  // integrators return are in the file's units.
+  glm::dvec3 origin{0};
+  double radianceUnit = 1;
+  std::vector<std::string> notes;  // accepted and not used, left out because nothing needs it
 
   // Made by finish():
   bool moving = false;  // the camera or any shape moves while the shutter is open

@@ -186,6 +186,11 @@ const XmlElement* SceneDocument::find(std::string_view id) const {
   return nullptr;
 }
 
+void SceneDocument::indexIds() {
+  ids.clear();
+  collectIds(*this, root);
+}
+
 std::unique_ptr<SceneDocument> loadSceneDocument(
     const std::string& file, const std::map<std::string, std::string>& defines) {
   auto document = std::make_unique<SceneDocument>();
@@ -196,7 +201,7 @@ std::unique_ptr<SceneDocument> loadSceneDocument(
                       "the outermost element is <" + document->root.name + ">",
                       "expected <scene version=\"0.6.0\">");
   loader.checkDefines(file, defines);
-  collectIds(*document, document->root);
+  document->indexIds();
   return document;
 }
 

@@ -17,6 +17,8 @@ struct SceneDocument {
 
   // The element with an id; null when there is none.
   const XmlElement* find(std::string_view id) const;
+  // Looks up the ids anew, after elements have been changed. Throws SceneError where one is given twice.
+  void indexIds();
 };
 
 // Reads the file and all it includes. `defines` give $names values that win over <default>.

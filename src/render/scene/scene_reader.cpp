@@ -1,6 +1,9 @@
 #include "render/scene/scene_reader.h"
 
+#include <fmt/format.h>
+
 #include "render/scene/element_properties.h"
+#include "render/scene/normalise.h"
 #include "render/scene/part_readers.h"
 #include "render/scene/value_text.h"
 
@@ -59,14 +62,32 @@ void keepUsedMaterials(Scene& scene) {
     shape.material = index[static_cast<std::size_t>(shape.material)];
 }
 
+// What a user who looks at coordinates or targets should know.
+void noteUnits(ReaderContext& context) {
+  const Scene& scene = context.scene;
+  if (scene.origin != glm::dvec3(0))
+    context.note(fmt::format("far from the origin: coordinates are relative to ({}, {}, {})",
+                             scene.origin.x, scene.origin.y, scene.origin.z));
+  if (scene.radianceUnit != 1)
+    context.note(
+        fmt::format("computed in units of {} of the scene's radiance", scene.radianceUnit));
+}
+
 }  // namespace
 
 Scene readScene(const std::string& file, const ReadOptions& options) {
-  const auto document = loadSceneDocument(file, options.defines);
-  checkVersion(document->root);
+  return makeScene(*loadSceneDocument(file, options.defines), options);
+}
+
+Scene makeScene(SceneDocument& document, const ReadOptions& options) {
+  checkVersion(document.root);
   Scene scene;
-  scene.file = file;
-  ReaderContext context(*document, scene);
+  scene.file = document.root.file->name;
+  const SceneUnits units = normalise(document);
+  scene.origin = units.origin;
+  scene.radianceUnit = units.radiance;
+  ReaderContext context(document, scene);
+  noteUnits(context);
 
   const XmlElement* sensor = nullptr;
   const XmlElement* integrator = nullptr;
@@ -77,7 +98,7 @@ Scene readScene(const std::string& file, const ReadOptions& options) {
                         "first at " + describe(slot->place()));
     slot = &element;
   };
-  for (const XmlElement& child : document->root.children) {
+  for (const XmlElement& child : document.root.children) {
     if (child.name == "sensor" || child.name == "camera") {
       once(sensor, child, "camera");
     } else if (child.name == "integrator") {
@@ -91,11 +112,11 @@ Scene readScene(const std::string& file, const ReadOptions& options) {
   if (integrator) readIntegrator(context, *integrator, options.integrators);
   if (dpt) readDptBlock(context, *dpt, options.integrators);
   if (sensor) readSensor(context, *sensor, options);
-  for (const XmlElement& child : document->root.children) {
+  for (const XmlElement& child : document.root.children) {
     if (child.name == "shape") readShape(context, child);
     if (child.name == "emitter" || child.name == "luminaire") readLight(context, child);
   }
-  for (const XmlElement& child : document->root.children) {
+  for (const XmlElement& child : document.root.children) {
     if (child.name != "bsdf" && child.name != "texture") continue;
     if (context.isUsed(child)) continue;
     checkUnused(context, child);
@@ -104,10 +125,10 @@ Scene readScene(const std::string& file, const ReadOptions& options) {
                  (id.empty() ? "at " + describe(child.place()) : "\"" + id + "\""));
   }
   if (!sensor)
-    throw sourceError(document->root.place(), "the scene has no camera",
+    throw sourceError(document.root.place(), "the scene has no camera",
                       "expected <sensor type=\"perspective\">");
   if (scene.lights.empty())
-    throw sourceError(document->root.place(), "the scene has no light",
+    throw sourceError(document.root.place(), "the scene has no light",
                       "expected an <emitter> that emits something");
   keepUsedMaterials(scene);
   scene.finish();

@@ -7,6 +7,7 @@
 
 #include "render/scene/properties.h"
 #include "render/scene/scene.h"
+#include "render/scene/scene_document.h"
 
 namespace h2mc {
 
@@ -21,5 +22,9 @@ struct ReadOptions {
 // The scene, finished. Throws SceneError, whose message is complete, for whatever is wrong with the
 // scene; std::runtime_error if Embree fails.
 Scene readScene(const std::string& file, const ReadOptions& options);
+
+// The same of a document that has been loaded, and perhaps changed since; the defines are the
+// document's and not looked at. The document is normalised.
+Scene makeScene(SceneDocument& document, const ReadOptions& options);
 
 }  // namespace h2mc

@@ -1,0 +1,26 @@
+// What stress found, for people and for programs.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "mcmc/stress/variations.h"
+
+namespace h2mc {
+
+// Everything as JSON: settings, `variations` in the order they were run, with the texts that replay
+// their worst paths, and `leftOut`, those that change nothing in the scene. Numbers that are not there
+// or not finite are null.
+nlohmann::json stressReport(const StressSettings& settings,
+                            const std::vector<VariationOutcome>& outcomes);
+
+// The report as a table in plain text.
+std::string stressTable(const nlohmann::json& report);
+
+// What failed in a variation, a line each with what looks at it alone; "" if nothing did. `command` is
+// the command line up to and including the scene.
+std::string stressFailures(const std::vector<VariationOutcome>& outcomes,
+                           const std::string& command);
+
+}  // namespace h2mc
