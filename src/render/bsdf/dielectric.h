@@ -3,7 +3,7 @@
 
 #include "render/bsdf/bsdf_types.h"
 #include "render/bsdf/fresnel.h"
-#include "render/bsdf/hemisphere.h"
+#include "render/core/hemisphere.h"
 #include "render/texture/texture.h"
 
 namespace h2mc {

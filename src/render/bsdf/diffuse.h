@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/bsdf/bsdf_types.h"
-#include "render/bsdf/hemisphere.h"
+#include "render/core/hemisphere.h"
 #include "render/texture/texture.h"
 
 namespace h2mc {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "render/bsdf/bsdf.h"
-#include "render/bsdf/hemisphere.h"
+#include "render/core/hemisphere.h"
 
 namespace h2mc {
 

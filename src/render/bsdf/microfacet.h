@@ -13,8 +13,8 @@
 // Directions here have z > 0; a facet's normal m too.
 #pragma once
 
-#include "render/bsdf/hemisphere.h"
 #include "render/bsdf/unary.h"
+#include "render/core/hemisphere.h"
 
 namespace h2mc {
 

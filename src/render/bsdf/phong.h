@@ -3,9 +3,9 @@
 #pragma once
 
 #include "render/bsdf/bsdf_types.h"
-#include "render/bsdf/hemisphere.h"
 #include "render/bsdf/unary.h"
 #include "render/core/frame.h"
+#include "render/core/hemisphere.h"
 #include "render/texture/texture.h"
 
 namespace h2mc {

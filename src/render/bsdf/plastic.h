@@ -3,8 +3,8 @@
 
 #include "render/bsdf/bsdf_types.h"
 #include "render/bsdf/fresnel.h"
-#include "render/bsdf/hemisphere.h"
 #include "render/bsdf/layered_diffuse.h"
+#include "render/core/hemisphere.h"
 
 namespace h2mc {
 

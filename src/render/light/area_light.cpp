@@ -50,9 +50,7 @@ bool AreaLight::invertEmission(const LightContext& context, PrimitiveId primitiv
   if (!invertDirect(context, primitive, origin, Vec3f(0), 0, u, choice, time)) return false;
   const Vec3f normal = samplePrimitive<float>(context.shapes, primitive, u.x, u.y, time).ng;
   const Vec3f local = Frame<float>::fromNormal(normal).toLocal(direction);
-  if (!(local.z > 0)) return false;
-  v = detail::invertUniformDisk(local.x, local.y);
-  return true;
+  return invertCosine(local, v);
 }
 
 }  // namespace h2mc

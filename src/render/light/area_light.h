@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/core/distribution.h"
+#include "render/core/hemisphere.h"
 #include "render/geometry/surface.h"
 #include "render/light/light_sampling.h"
 #include "render/scene/plugin.h"
@@ -134,12 +135,12 @@ EmittedRay<T> AreaLight::sampleEmission(const LightContext& context, PrimitiveId
                                         const T* time) const {
   using S = Scalar<T>;
   const SurfacePoint<T> point = samplePrimitive<T>(context.shapes, primitive, u0, u1, time);
-  const Vec2<T> d = detail::uniformDisk(v0, v1);
+  const Vec3<T> local = sampleCosine<T>(v0, v1);
   EmittedRay<T> r;
-  r.cosLight = safeSqrt(T(S(1) - v0));
+  r.cosLight = local.z;
   r.origin = point.p;
   r.normal = point.ng;
-  r.direction = aroundNormal<T>(point.ng, Vec3<T>(d.x, d.y, r.cosLight));
+  r.direction = aroundNormal<T>(point.ng, local);
   r.power = modulate<T>(*radiance, point.uv, r.cosLight);
   r.emissionPdf = r.cosLight * S(kInvPi / area_);
   r.directPdf = T(S(1 / area_));

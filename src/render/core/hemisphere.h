@@ -1,4 +1,4 @@
-// Directions from primary coordinates: what the BSDFs' sampling routines share.
+// Directions from primary coordinates: what the sampling routines of BSDFs and lights share.
 #pragma once
 
 #include <algorithm>
