@@ -20,12 +20,13 @@ namespace h2mc {
 namespace {
 
 constexpr int kDefaultMaxDepth = 8;
+constexpr int kDefaultWidth = 48;
 
 struct StressOptions {
   std::string scene, json, replay;
   StressSettings settings;
   std::optional<std::uint64_t> seed;
-  int maxDepth = kDefaultMaxDepth, width = 48;
+  int maxDepth = kDefaultMaxDepth, width = kDefaultWidth;
   std::vector<std::string> only, defines;
   bool quiet = false;
 };
@@ -91,7 +92,11 @@ int run(const StressOptions& options) {
                       done / std::max(elapsed, 1e-9), "variations"});
     }
   }
-  nlohmann::json report = stressReport(settings, outcomes);
+  std::string command = "h2mc stress " + options.scene;
+  for (const std::string& define : options.defines) command += " -D " + define;
+  // The film's height, and with it where paths begin, is rounded by the width.
+  if (options.width != kDefaultWidth) command += fmt::format(" --width {}", options.width);
+  nlohmann::json report = stressReport(settings, outcomes, command);
   report["programVersion"] = H2MC_VERSION_STRING;
   report["scene"] = options.scene;
   if (!options.json.empty()) {
@@ -103,8 +108,6 @@ int run(const StressOptions& options) {
     }
   }
   if (!options.quiet) fmt::print("{}", stressTable(report));
-  std::string command = "h2mc stress " + options.scene;
-  for (const std::string& define : options.defines) command += " -D " + define;
   fmt::print(stderr, "{}", stressFailures(outcomes, command));
   if (interrupted) {
     fmt::print(stderr, "h2mc: interrupted after {} of {} variations\n", outcomes.size(),

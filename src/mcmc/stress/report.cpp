@@ -103,17 +103,20 @@ std::string worst(const json& report, const char* error, const char* title) {
     if (!found || v[error]["worst"] > (*found)[error]["worst"]) found = &v;
   }
   if (!found) return "";
-  return fmt::format("worst {}: {}, --only {} --replay \"{}\"\n", title,
-                     small((*found)[error]["worst"]), (*found)["name"].get<std::string>(),
+  return fmt::format("worst {}: {}, {} --only {} --replay \"{}\"\n", title,
+                     small((*found)[error]["worst"]), report["command"].get<std::string>(),
+                     (*found)["name"].get<std::string>(),
                      (*found)[error]["worstReplay"].get<std::string>());
 }
 
 }  // namespace
 
-json stressReport(const StressSettings& settings, const std::vector<VariationOutcome>& outcomes) {
-  json report = {{"paths", settings.paths},        {"samples", settings.samples},
-                 {"maxDepth", settings.maxLength}, {"seed", settings.seed},
-                 {"variations", json::array()},    {"leftOut", json::array()}};
+json stressReport(const StressSettings& settings, const std::vector<VariationOutcome>& outcomes,
+                  const std::string& command) {
+  json report = {{"command", command},          {"paths", settings.paths},
+                 {"samples", settings.samples}, {"maxDepth", settings.maxLength},
+                 {"seed", settings.seed},       {"variations", json::array()},
+                 {"leftOut", json::array()}};
   int failed = 0;
   for (const VariationOutcome& outcome : outcomes) {
     failed += outcome.failed();
