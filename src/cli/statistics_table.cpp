@@ -73,8 +73,9 @@ std::string table(const Rows& rows, int indent) {
     for (const auto& item : row->items())
       if (std::find(columns.begin(), columns.end(), item.key()) == columns.end())
         columns.push_back(item.key());
-  std::stable_partition(columns.begin(), columns.end(),
-                        [](const std::string& c) { return c == "name" || c == "kind"; });
+  std::stable_partition(columns.begin(), columns.end(), [](const std::string& c) {
+    return c == "name" || c == "kind" || c == "level";
+  });
 
   std::vector<std::vector<std::string>> cells(1);
   cells[0].push_back("");

@@ -45,6 +45,29 @@ void ChainStatistics::add(const ChainStatistics& other) {
   if (firstNotFinite.empty()) firstNotFinite = other.firstNotFinite;
 }
 
+namespace {
+
+// A row for each level that was met: how often, and the acceptance of each kind there.
+nlohmann::json levelTable(const std::vector<std::vector<AcceptanceCount>>& levels,
+                          const std::vector<std::string>& kindNames) {
+  nlohmann::json table = nlohmann::json::array();
+  for (std::size_t i = 0; i < levels[0].size(); ++i) {
+    nlohmann::json row = {{"level", static_cast<int>(i) - kHighestLevel}};
+    long long states = 0;
+    for (std::size_t kind = 0; kind < levels.size(); ++kind) {
+      const AcceptanceCount& count = levels[kind][i];
+      states += count.proposed;
+      if (count.proposed > 0)
+        row[kindNames[kind]] = count.expected / static_cast<double>(count.proposed);
+    }
+    row["states"] = states;
+    if (states > 0) table.push_back(row);
+  }
+  return table;
+}
+
+}  // namespace
+
 nlohmann::json ChainStatistics::json(const std::vector<std::string>& kindNames) const {
   const auto rate = [](const AcceptanceCount& c) {
     return nlohmann::json{
@@ -54,17 +77,14 @@ nlohmann::json ChainStatistics::json(const std::vector<std::string>& kindNames) 
   nlohmann::json kinds = nlohmann::json::object();
   for (std::size_t kind = 0; kind < acceptance.size(); ++kind) {
     AcceptanceCount all;
-    const auto table = [&](const std::vector<AcceptanceCount>& counts, int first) {
-      nlohmann::json result = nlohmann::json::object();
-      for (std::size_t i = 0; i < counts.size(); ++i)
-        if (counts[i].proposed > 0)
-          result[std::to_string(first + static_cast<int>(i))] = rate(counts[i]);
-      return result;
-    };
-    for (const AcceptanceCount& count : acceptance[kind]) all.add(count);
-    nlohmann::json& entry = kinds[kindNames[kind]] = rate(all);
-    entry["by path length"] = table(acceptance[kind], 0);
-    entry["by level of the target"] = table(levels[kind], -kHighestLevel);
+    nlohmann::json byLength = nlohmann::json::object();
+    for (std::size_t length = 0; length < acceptance[kind].size(); ++length) {
+      const AcceptanceCount& count = acceptance[kind][length];
+      all.add(count);
+      if (count.proposed > 0) byLength[std::to_string(length)] = rate(count);
+    }
+    kinds[kindNames[kind]] = rate(all);
+    kinds[kindNames[kind]]["by path length"] = byLength;
   }
   const auto share = [&](double seconds) {
     return profile.total > 0 ? seconds / profile.total : 0.0;
@@ -72,6 +92,7 @@ nlohmann::json ChainStatistics::json(const std::vector<std::string>& kindNames) 
   nlohmann::json result = {
       {"mutations", mutations},
       {"mutation kinds", kinds},
+      {"acceptance by level of the target", levelTable(levels, kindNames)},
       {"derivatives", {{"computed", derivatives.computed}, {"not finite", derivatives.notFinite}}},
       {"time shares",
        {{"tracing", share(profile.rays)},
