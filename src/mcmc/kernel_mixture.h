@@ -50,7 +50,10 @@ struct KernelMixture {
   // The level of a target > 0; 0 where the brightness is not known.
   int level(double target) const;
   // Index of a level in tables such as ChainStatistics::levels.
-  static std::size_t at(int level) { return static_cast<std::size_t>(level + kHighestLevel); }
+  static std::size_t at(int level) {
+    const int index = level + kHighestLevel;
+    return static_cast<std::size_t>(index);
+  }
 
   // Draws the kind for a state. Two random numbers, one for a large step.
   std::size_t choose(const Path& state, Random& random) const;
