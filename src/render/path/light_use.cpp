@@ -76,10 +76,10 @@ void pickLightsByUse(Scene& scene, const std::vector<double>& powers) {
     Random random(0, kStream, static_cast<std::uint64_t>(cell));
     for (float& u : path.sample.u) u = random.uniform();
     for (float& choice : path.sample.choice) choice = random.uniform();
-    path.sample.u[0] =
-        (static_cast<float>(cell % grid) + random.uniform()) / static_cast<float>(grid);
-    path.sample.u[1] =
-        (static_cast<float>(cell / grid) + random.uniform()) / static_cast<float>(grid);
+    const int column = cell % grid, row = cell / grid;
+    const auto size = static_cast<float>(grid);
+    path.sample.u[0] = (static_cast<float>(column) + random.uniform()) / size;
+    path.sample.u[1] = (static_cast<float>(row) + random.uniform()) / size;
     path.sample.time = scene.moving ? random.uniform() : 0;
     for (int i = 1; i <= kVertices && stepCamera(scene, path, i) == Step::kArrived; ++i) {
       const TracedVertex& v = path.camera[static_cast<std::size_t>(i)];
