@@ -18,10 +18,9 @@ namespace h2mc {
 
 enum ExitCode {
   kSuccess = 0,
-  kCheckFailed =
-      1,          // diff, gradcheck: more than the tolerance; stress: a defect; inspect: no light
-  kBadInput = 2,  // options, scene, images, paths
-  kFailed = 3,    // anything else: memory, disk, a mistake in the program
+  kCheckFailed = 1,  // diff, gradcheck: more than the tolerance; stress: a defect; inspect: dark
+  kBadInput = 2,     // options, scene, images, paths
+  kFailed = 3,       // anything else: memory, disk, a mistake in the program
   kInterrupted = 130,
 };
 
@@ -47,6 +46,8 @@ void addInspectCommand(CLI::App& app, Run& run);
 // The tables of all integrators, for the scene reader.
 std::vector<IntegratorPlugin> integratorPlugins();
 
+// The option -D of the commands that read a scene.
+void addDefines(CLI::App& command, std::vector<std::string>& definitions);
 // What `-D name=value` means to the commands that read a scene. Throws InputError.
 std::map<std::string, std::string> parseDefines(const std::vector<std::string>& definitions);
 

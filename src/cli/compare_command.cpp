@@ -243,9 +243,7 @@ void addCompareCommand(CLI::App& app, Run& run) {
   command->add_option("--seed", plan.seed, "Of the first repeat; the others follow")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--threads", plan.threads, "Default: one a core")->check(positive);
-  command
-      ->add_option("-D", plan.defines, "name=value: what the scenes' $name stands for; repeatable")
-      ->allow_extra_args(false);
+  addDefines(*command, plan.defines);
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but the table and errors");
   command->footer(
       "Runs come one after the other, each on all threads. Interrupted by Ctrl-C, the same "

@@ -180,10 +180,7 @@ void addGradcheckCommand(CLI::App& app, Run& run_) {
                    "Longest path in edges. Default: the scene's, at most 8")
       ->check(CLI::Range(1, kMaxPathLength));
   command->add_option("--threads", settings.threads, "Default: one a core")->check(positive);
-  command
-      ->add_option("-D", options->defines,
-                   "name=value: what the scene's $name stands for; repeatable")
-      ->allow_extra_args(false);
+  addDefines(*command, options->defines);
   command->add_option("--json", options->json, "JSON file for everything that was found");
   command->add_option("--html", options->html, "Page with tables and plots");
   command

@@ -161,10 +161,7 @@ void addInfoCommand(CLI::App& app, Run& run) {
   auto options = std::make_shared<InfoOptions>();
   CLI::App* command = app.add_subcommand("info", "What a scene file holds, as it was read");
   command->add_option("SCENE", options->scene, "Scene file (Mitsuba XML)")->required();
-  command
-      ->add_option("-D", options->defines,
-                   "name=value: what the scene's $name stands for; repeatable")
-      ->allow_extra_args(false);
+  addDefines(*command, options->defines);
   command->footer("What is not used, or left out because nothing needs it, is in the notes.");
   command->callback([options, &run] { run = [options] { return info(*options); }; });
 }

@@ -196,10 +196,7 @@ void addInspectCommand(CLI::App& app, Run& run_) {
       ->check(CLI::NonNegativeNumber);
   command->add_option("--threads", settings.threads, "Default: one a core")
       ->check(CLI::PositiveNumber);
-  command
-      ->add_option("-D", options->defines,
-                   "name=value: what the scene's $name stands for; repeatable")
-      ->allow_extra_args(false);
+  addDefines(*command, options->defines);
   command->add_option("--json", options->json,
                       "JSON file: path, eigenvectors, proposals, and the chosen pair's slices");
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but failures");

@@ -27,6 +27,12 @@ std::vector<IntegratorPlugin> integratorPlugins() {
   return plugins;
 }
 
+void addDefines(CLI::App& command, std::vector<std::string>& definitions) {
+  command
+      .add_option("-D", definitions, "name=value: what the scene's $name stands for; repeatable")
+      ->allow_extra_args(false);
+}
+
 std::map<std::string, std::string> parseDefines(const std::vector<std::string>& definitions) {
   std::map<std::string, std::string> defines;
   for (const std::string& definition : definitions) {

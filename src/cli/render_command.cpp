@@ -257,10 +257,7 @@ void addRenderCommand(CLI::App& app, Run& run) {
                    "Same scene, options and seed: same image. Default: the scene's, or 0")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--threads", options->threads, "Default: one a core")->check(positive);
-  command
-      ->add_option("-D", options->defines,
-                   "name=value: what the scene's $name stands for; repeatable")
-      ->allow_extra_args(false);
+  addDefines(*command, options->defines);
   command->add_option("--stats", options->statistics, "JSON file to write the statistics to");
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command->footer(

@@ -173,10 +173,7 @@ void addStressCommand(CLI::App& app, Run& run_) {
       ->add_option("--only", options->only,
                    "NAME,...: these variations alone; \"alpha\" stands for all alpha=..")
       ->delimiter(',');
-  command
-      ->add_option("-D", options->defines,
-                   "name=value: what the scene's $name stands for; repeatable")
-      ->allow_extra_args(false);
+  addDefines(*command, options->defines);
   command->add_option("--json", options->json, "JSON file for everything that was found");
   command
       ->add_option("--replay", options->replay,

@@ -69,8 +69,8 @@ struct KernelMixture {
  private:
   double smallShare(std::size_t k, const Technique& technique, int level) const;
 
-  std::vector<std::vector<double>>
-      learned_;  // [small step with a cost][level]: of what these have together; empty before learn()
+  // [small step][level]: shares of what the steps with a cost have together; empty before learn().
+  std::vector<std::vector<double>> learned_;
 };
 
 }  // namespace h2mc

@@ -1,5 +1,6 @@
 """What the tests of the program share: running it, small scenes and images, EXR headers."""
 
+import json
 import os
 import shutil
 import struct
@@ -74,6 +75,11 @@ class Test(unittest.TestCase):
         with open(self.path(name), "w", encoding="utf-8") as out:
             out.write(text)
         return name
+
+    def report(self, name):
+        """What a JSON file holds."""
+        with open(self.path(name), encoding="utf-8") as stream:
+            return json.load(stream)
 
     def files(self):
         return sorted(os.listdir(self.folder))

@@ -15,10 +15,6 @@ class Gradcheck(_h2mc.Test):
         super().setUp()
         self.write("scene.xml", _h2mc.SCENE)
 
-    def report(self, name):
-        with open(self.path(name), encoding="utf-8") as stream:
-            return json.load(stream)
-
     def test_a_scene_that_is_right(self):
         result = self.succeeds("gradcheck", "scene.xml", *QUICK, "--json", "a.json",
                                "--html", "a.html")

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """h2mc stress"""
 
-import json
 import re
 import shlex
 import signal
@@ -19,10 +18,6 @@ class Stress(_h2mc.Test):
     def setUp(self):
         super().setUp()
         self.write("scene.xml", _h2mc.SCENE)
-
-    def report(self, name):
-        with open(self.path(name), encoding="utf-8") as stream:
-            return json.load(stream)
 
     def test_all_variations(self):
         result = self.succeeds("stress", "scene.xml", *QUICK, "--json", "a.json")

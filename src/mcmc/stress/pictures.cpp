@@ -1,11 +1,12 @@
 #include "mcmc/stress/pictures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
 
-#include "mcmc/integrators.h"
+#include "mcmc/integrator_choice.h"
 #include "mcmc/statistics.h"
 #include "render/core/random.h"
 
@@ -39,21 +40,6 @@ void add(const Image& image, Quantities& quantities, long long& broken) {
   for (std::size_t k = 0; k < kQuantities; ++k) quantities[k].add(sums[k] / pixels);
 }
 
-std::unique_ptr<Integrator> integrator(const char* name, int maxLength, long long samples) {
-  for (const IntegratorFactory& factory : allIntegrators()) {
-    if (factory.plugin.name != name) continue;
-    OptionSet options(factory.plugin);
-    options.set("maxDepth", std::to_string(maxLength));
-    if (options.has("chains")) {
-      options.set("chains", std::to_string(kChains));
-      options.set("bootstrapSamples", std::to_string(std::min(samples, kMostBootstrap)));
-      options.set("directSamples", "0");  // the chains do everything
-    }
-    return factory.create(options);
-  }
-  throw std::logic_error(std::string("no integrator ") + name);
-}
-
 PictureComparison::Estimate estimate(const Moments& m) {
   return {m.mean(), std::max(m.standardError(), kRounding * m.mean())};
 }
@@ -71,9 +57,13 @@ PictureComparison comparePictures(const Scene& scene, const PictureSettings& set
   request.stop = settings.stop;
 
   Quantities of[2];
-  const char* const names[2] = {"h2mc", "bdpt"};
+  const std::string wishes[2] = {
+      // The chains do everything.
+      fmt::format("h2mc:maxDepth={},chains={},bootstrapSamples={},directSamples=0",
+                  settings.maxLength, kChains, std::min(all, kMostBootstrap)),
+      fmt::format("bdpt:maxDepth={}", settings.maxLength)};
   for (std::size_t which = 0; which < 2; ++which) {
-    const auto renderer = integrator(names[which], settings.maxLength, all);
+    const auto renderer = chooseIntegrator(wishes[which], scene).integrator;
     for (int run = 0; run < PictureComparison::kRuns; ++run) {
       request.seed = mixBits(settings.seed) + static_cast<std::uint64_t>(run);
       const RenderResult rendered = renderer->render(scene, request);

@@ -79,7 +79,7 @@ class PathSampler final : public PixelSampler {
     PrimitiveId primitive;
     const float choice = random.uniform(), u0 = random.uniform(), u1 = random.uniform();
     if (!hasNonDelta(scene.bsdfs, materialAt(scene, id)) ||
-        !pickLight(scene, 1, choice, light, primitive))
+        !pickLight(scene, scene.directPicker, choice, light, primitive))
       return Rgbf(0);
     DirectLight<float> sample;
     const Rgbf value =

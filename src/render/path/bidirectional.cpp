@@ -57,7 +57,9 @@ void BidirectionalSampler::draw(const Scene& scene, Random& random, float filmX,
   light.sample.choice[0] = emitted ? given->sample.choice[at(own.lightPick())] : random.uniform();
   for (int i = 0; i < 4; ++i)
     light.sample.u[at(i)] = emitted ? given->sample.u[at(own.lightOffset() + i)] : random.uniform();
-  if (!pickLight(scene, 2, light.sample.choice[0], light.lightIndex, light.lightPrimitive)) return;
+  if (!pickLight(scene, scene.emissionPicker, light.sample.choice[0], light.lightIndex,
+                 light.lightPrimitive))
+    return;
   for (int i = 1; i < maxLength_; ++i) {
     if (i > 1) {
       const Technique& technique = light.technique;
@@ -98,7 +100,8 @@ bool BidirectionalSampler::join(const Scene& scene, Connection& connection, int&
             cameraPath_.sample.time};
   if (s == 1) {
     const Direct& direct = direct_[at(t) - 1];
-    if (!pickLight(scene, 1, direct.choice, ends.lightIndex, ends.lightPrimitive)) return false;
+    if (!pickLight(scene, scene.directPicker, direct.choice, ends.lightIndex, ends.lightPrimitive))
+      return false;
     ends.u0 = direct.u0;
     ends.u1 = direct.u1;
   }

@@ -86,14 +86,13 @@ Contribution<T> contributionOf(const Link<T>& link, const Camera* camera, const 
   return c;
 }
 
-// The link with what the other techniques' densities at a light that was hit are.
+// Gives the link of a light that was hit the densities of the other techniques there.
 template <class T>
-Link<T> weighedHit(const Scene& scene, Link<T>&& link, const LightHit<T>& hit, int light,
-                   Techniques techniques) {
+void weighHit(const Scene& scene, const LightHit<T>& hit, int light, Techniques techniques,
+              Link<T>& link) {
   link.camera.vcm = hit.directPdf * Scalar<T>(scene.directPicker.probability(light));
   if (techniques == Techniques::kBidirectional)
     link.camera.vc = hit.emissionPdf * Scalar<T>(scene.emissionPicker.probability(light));
-  return std::move(link);
 }
 
 // s = 0: the camera subpath has arrived, in world direction `direction`, at the area light `light`, on
@@ -105,8 +104,8 @@ Link<T> linkOfAreaLight(const Scene& scene, const SurfacePoint<T>& point, const 
   const auto& l = std::get<AreaLight>(scene.lights[static_cast<std::size_t>(light)]);
   const LightHit<T> hit = l.template hit<T>(scene.lightContext(), point, direction, id, time);
   Link<T> link(hit.radiance);
-  if (t == 2 || link.zero()) return link;
-  return weighedHit(scene, std::move(link), hit, light, techniques);
+  if (t > 2 && !link.zero()) weighHit(scene, hit, light, techniques, link);
+  return link;
 }
 
 // s = 0: the camera subpath has left the scene in world direction `direction`.
@@ -120,8 +119,8 @@ Link<T> linkOfEnvironment(const Scene& scene, const Vec3<T>& direction, int t,
         const LightHit<T> hit =
             l.template hit<T>(scene.lightContext(), SurfacePoint<T>{}, direction);
         Link<T> link(hit.radiance);
-        if (t == 2 || link.zero()) return link;
-        return weighedHit(scene, std::move(link), hit, light, techniques);
+        if (t > 2 && !link.zero()) weighHit(scene, hit, light, techniques, link);
+        return link;
       },
       scene.lights[static_cast<std::size_t>(light)]);
 }

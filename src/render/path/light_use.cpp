@@ -12,17 +12,15 @@ namespace {
 
 constexpr std::uint64_t kStream = 0x6c69676874;
 constexpr int kVertices = 3;             // of a camera path
-constexpr int kGrid = 48;                // paths along each side of the film, at most
-constexpr double kShadowRays = 300'000;  // at most, about
+constexpr int kGrid = 24;                // paths along each side of the film, at most
+constexpr double kShadowRays = 100'000;  // at most, about
 constexpr int kSamplesOfFew = 16;        // a vertex, shared out among the lights: at least one each
 constexpr double kPowerInDirect = 0.1, kPowerInEmission = 0.5;
 
 // Luminance that `light` sends on to the camera by way of a vertex, an estimate from one sample; no
 // probability of choosing the light in it.
 double arriving(const Scene& scene, const TracedVertex& v, int light, float time, Random& random) {
-  const PrimitiveId primitive = std::visit(
-      [&](const auto& l) { return l.choosePrimitive(scene.lightContext(), random.uniform()); },
-      scene.lights[static_cast<std::size_t>(light)]);
+  const PrimitiveId primitive = pickPrimitive(scene, light, random.uniform());
   const float u0 = random.uniform(), u1 = random.uniform();
   DirectLight<float> direct;
   const Link<float> link = linkToLight<float>(scene, v.vertex, v.id, light, primitive, u0, u1,
@@ -49,24 +47,19 @@ void addShares(const Scene& scene, const TracedVertex& v, float time, Random& ra
   for (std::size_t i = 0; i < values.size(); ++i) squares[i] += weight * squared(values[i] / sum);
 }
 
-LightPicker mixture(const std::vector<double>& uses, const std::vector<double>& powers,
-                    double share) {
-  const auto total = [](const std::vector<double>& v) {
-    double sum = 0;
-    for (const double x : v) sum += x;
-    return sum;
-  };
-  const double allUses = total(uses), allPowers = total(powers);
-  std::vector<double> weights(uses.size());
-  for (std::size_t i = 0; i < weights.size(); ++i)
-    weights[i] = (1 - share) * uses[i] / allUses + share * powers[i] / allPowers;
+// Of `uses` and, with its share, what `powers` has; both probabilities.
+LightPicker mixture(const std::vector<double>& uses, const LightPicker& powers, double share) {
+  std::vector<double> weights;
+  for (std::size_t i = 0; i < uses.size(); ++i)
+    weights.push_back((1 - share) * uses[i] +
+                      share * double(powers.probability(static_cast<int>(i))));
   return LightPicker(weights);
 }
 
 }  // namespace
 
-void pickLightsByUse(Scene& scene, const std::vector<double>& powers) {
-  const std::size_t lights = powers.size();
+void pickLightsByUse(Scene& scene) {
+  const std::size_t lights = scene.lights.size();
   std::vector<double> values(lights), squares(lights, 0);
   const double perPath = kVertices * std::max<double>(kSamplesOfFew, static_cast<double>(lights));
   const int grid = std::clamp(static_cast<int>(std::sqrt(kShadowRays / perPath)), 1, kGrid);
@@ -90,6 +83,8 @@ void pickLightsByUse(Scene& scene, const std::vector<double>& powers) {
   double sum = 0;
   for (double& s : squares) sum += s = std::sqrt(s);
   if (!(sum > 0)) return;
+  for (double& s : squares) s /= sum;
+  const LightPicker powers = scene.emissionPicker;
   scene.directPicker = mixture(squares, powers, kPowerInDirect);
   scene.emissionPicker = mixture(squares, powers, kPowerInEmission);
 }

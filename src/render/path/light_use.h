@@ -1,8 +1,6 @@
 // Which lights matter to what the camera sees.
 #pragma once
 
-#include <vector>
-
 namespace h2mc {
 
 struct Scene;
@@ -15,8 +13,8 @@ struct Scene;
 // probabilities are 0.9 w + 0.1 p for next-event estimation and (w + p) / 2 for light subpaths, whose
 // light may arrive by ways that the camera paths have not found. Positive for every light that emits.
 //
-// A function of the scene alone: the same for every integrator and seed. Preconditions: scene.tracer
-// and both pickers are there. `powers`: one a light.
-void pickLightsByUse(Scene& scene, const std::vector<double>& powers);
+// A function of the scene alone: the same for every integrator and seed. Preconditions: the tracer is
+// there, and both pickers are by power.
+void pickLightsByUse(Scene& scene);
 
 }  // namespace h2mc

@@ -150,14 +150,17 @@ bool traceCamera(const Scene& scene, Path& path, int first) {
   return true;
 }
 
-bool pickLight(const Scene& scene, int s, float choice, int& light, PrimitiveId& primitive) {
-  const LightPicker::Choice pick =
-      (s == 1 ? scene.directPicker : scene.emissionPicker).choose(choice);
+PrimitiveId pickPrimitive(const Scene& scene, int light, float choice) {
+  return std::visit([&](const auto& l) { return l.choosePrimitive(scene.lightContext(), choice); },
+                    scene.lights[static_cast<std::size_t>(light)]);
+}
+
+bool pickLight(const Scene& scene, const LightPicker& picker, float choice, int& light,
+               PrimitiveId& primitive) {
+  const LightPicker::Choice pick = picker.choose(choice);
   if (pick.light < 0) return false;
   light = pick.light;
-  primitive = std::visit(
-      [&](const auto& l) { return l.choosePrimitive(scene.lightContext(), pick.remainder); },
-      scene.lights[static_cast<std::size_t>(light)]);
+  primitive = pickPrimitive(scene, light, pick.remainder);
   return true;
 }
 
@@ -184,8 +187,8 @@ Step stepLight(const Scene& scene, Path& path, int i) {
 bool traceLight(const Scene& scene, Path& path) {
   const Technique& technique = path.technique;
   if (technique.s == 0) return true;
-  if (!pickLight(scene, technique.s,
-                 path.sample.choice[static_cast<std::size_t>(technique.lightPick())],
+  const LightPicker& picker = technique.s == 1 ? scene.directPicker : scene.emissionPicker;
+  if (!pickLight(scene, picker, path.sample.choice[static_cast<std::size_t>(technique.lightPick())],
                  path.lightIndex, path.lightPrimitive))
     return false;
   const unsigned wraps = std::visit(

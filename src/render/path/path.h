@@ -63,10 +63,12 @@ Step stepCamera(const Scene& scene, Path& path, int i);
 Step stepLight(const Scene& scene, Path& path, int i);
 // Whether any of the path's vertices, its light or the camera moves.
 bool touchesMotion(const Scene& scene, const Path& path);
-// The light and its primitive by path.sample's choice coordinate, for a technique's `s`: lights that are
-// connected to (s = 1) and those that a subpath leaves have probabilities of their own. False when there
-// is no light.
-bool pickLight(const Scene& scene, int s, float choice, int& light, PrimitiveId& primitive);
+// The light and its primitive by path.sample's choice coordinate, with the scene's directPicker (s = 1)
+// or emissionPicker (s >= 2); false when there is no light.
+bool pickLight(const Scene& scene, const LightPicker& picker, float choice, int& light,
+               PrimitiveId& primitive);
+// The primitive alone, of a light that is known.
+PrimitiveId pickPrimitive(const Scene& scene, int light, float choice);
 
 // What a technique's last step needs; members that the technique lacks are not looked at.
 struct Ends {

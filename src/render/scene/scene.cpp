@@ -72,7 +72,7 @@ void Scene::finish() {
         static_cast<double>(std::visit([&](const auto& l) { return l.power(bounds); }, light)));
   directPicker = emissionPicker = LightPicker(powers);
   tracer = std::make_unique<RayTracer>(shapes);
-  if (lights.size() > 1) pickLightsByUse(*this, powers);
+  if (lights.size() > 1) pickLightsByUse(*this);
 }
 
 }  // namespace h2mc
