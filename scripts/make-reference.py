@@ -18,6 +18,10 @@ sys.path.insert(0, os.path.join(ROOT, "scenes"))
 import exr  # noqa: E402
 
 
+# Seeds apart from those of comparisons: a method must not be measured against its own samples.
+FIRST_SEED = 1001
+
+
 def rounded(values, bits):
     """To this many binary digits: noise below the standard error only makes files large."""
     result = []
@@ -52,7 +56,7 @@ def main():
         command += ["--threads", str(options.threads)]
     images, luminances = [], []
     with tempfile.TemporaryDirectory(prefix="h2mc_reference_") as folder:
-        for seed in range(1, options.runs + 1):
+        for seed in range(FIRST_SEED, FIRST_SEED + options.runs):
             image = os.path.join(folder, f"{seed}.exr")
             subprocess.run([*command, "--seed", str(seed), "-o", image], check=True)
             _, width, height, planes = exr.read(image)
@@ -67,7 +71,8 @@ def main():
     luminance = sum(luminances) / runs
     luminance_error = math.sqrt(sum((v - luminance) ** 2 for v in luminances) / (runs * (runs - 1)))
     each = f"{options.samples} samples a pixel" if options.samples else f"{options.seconds:g} s"
-    texts = [("integrator", options.integrator), ("runs", f"{runs} of {each}, seeds 1 to {runs}"),
+    seeds = f"seeds {FIRST_SEED} to {FIRST_SEED + runs - 1}"
+    texts = [("integrator", options.integrator), ("runs", f"{runs} of {each}, {seeds}"),
              ("meanLuminance", f"{luminance:.6g} (standard error {luminance_error:.2g})")]
     folder = os.path.dirname(os.path.abspath(options.scene))
     exr.write(os.path.join(folder, "reference.exr"), width, height, [rounded(c, 11) for c in mean], texts)

@@ -16,7 +16,8 @@
 // begin at ever smaller steps, down to where noise would hide it. One that agrees with the exact value
 // decides: larger steps had reached beyond what the derivative is about. Otherwise it is kWrong if
 // these sweeps agree with one another and converge, and one-sided differences agree (or else kKink);
-// where noise leaves no smaller steps to look with, it is kNoise.
+// where noise leaves no smaller steps to look with, it is kNoise. A Hessian's entry
+// is not judged, either, where most of those that share a coordinate with it are not.
 #pragma once
 
 #include <cstdint>

@@ -135,11 +135,25 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
+std::string referenceFile(const ComparisonPlan& plan, const ComparedScene& scene) {
+  return replaced(plan.reference, "{scene}", scene.name);
+}
+
 }  // namespace
+
+std::optional<glm::ivec2> sizeForReference(const ComparisonPlan& plan, const ComparedScene& scene,
+                                           int width, int height) {
+  if (plan.reference == "auto" || plan.width > 0 || plan.height > 0 || plan.scale > 0) return {};
+  const Image image = readImage(referenceFile(plan, scene));
+  if (factorTo(image, width, height) > 0) return {};
+  const auto across = [](int a, int b) { return static_cast<long long>(a) * b; };
+  if (across(image.width, height) != across(image.height, width)) return {};
+  return glm::ivec2(image.width, image.height);
+}
 
 Reference givenReference(const ComparisonPlan& plan, const ComparedScene& scene, int width,
                          int height) {
-  const std::string file = replaced(plan.reference, "{scene}", scene.name);
+  const std::string file = referenceFile(plan, scene);
   Reference result;
   result.image = readImage(file);
   const int factor = factorTo(result.image, width, height);

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "compare/reference.h"
 #include "mcmc/integrators.h"
 #include "render/image/atomic_file.h"
 #include "render/image/image_io.h"
@@ -272,6 +273,13 @@ ComparisonSetup setUp(const ComparisonPlan& plan) {
   ComparisonSetup setup;
   for (const ComparedScene& scene : plan.scenes) {
     ComparisonSetup::OneScene one{readScene(scene.file, read), hashOf(contentOf(scene.file)), {}};
+    const FilmSettings& film = one.scene.film;
+    if (const auto size = sizeForReference(plan, scene, film.width, film.height)) {
+      ReadOptions atSize = read;
+      atSize.width = size->x;
+      atSize.height = size->y;
+      one.scene = readScene(scene.file, atSize);
+    }
     for (const std::string& method : plan.methods)
       one.methods.push_back(chooseIntegrator(method, one.scene));
     setup.scenes.push_back(std::move(one));

@@ -6,6 +6,7 @@ import json
 import os
 import re
 import signal
+import struct
 import subprocess
 import time
 
@@ -138,6 +139,21 @@ class Compare(_h2mc.Test):
         self.write("README.md", "# Box\n\nReference integrator: `path:maxDepth=3`, as nothing is hidden.\n")
         self.compare("-m", "4", "-k", 1, "--reference-time", 0.2)
         self.assertTrue(self.results()["scenes"][0]["reference"]["origin"].startswith("path:maxDepth=3,"))
+
+    def test_images_take_a_small_reference_s_size(self):
+        self.reference("half.exr", samples=4, more=("--scale", 0.5))
+        width, height = self.size("half.exr")
+        self.compare("-m", 4, "-k", 1, "-r", "half.exr")
+        found = self.results()["scenes"][0]
+        self.assertEqual((found["width"], found["height"]), (width, height))
+        self.assertEqual(self.size(os.path.join("out", self.rows()[0]["image"])), (width, height))
+        # A size that is asked for is kept, and has to fit.
+        self.fails(2, "compare", "box.xml", "-i", "path", "-m", 4, "-r", "half.exr", "-o", "out2", "--scale", 1,
+                   says="whole multiple")
+
+    def size(self, file):
+        x0, y0, x1, y1 = struct.unpack("<4i", self.read_exr(self.path(file))[0]["dataWindow"])
+        return x1 - x0 + 1, y1 - y0 + 1
 
     def test_external_images(self):
         self.reference()

@@ -68,7 +68,54 @@ TEST(BsdfDerivative, DensityIsTheInverseJacobianOfSampling) {
   EXPECT_GT(checked, 600);
 }
 
-// log of value, pdf and pdfReverse by the angles of both directions, where all are well away from
+// What float loses: the weight of a drawn direction varies slowly where the cosine and the density that it
+// is the quotient of do not, towards the horizon.
+TEST(BsdfDerivative, WeightsAreAsGoodInFloat) {
+  using F = ad::Dual2<float, 4>;
+  using D = ad::Dual2<double, 4>;
+  const std::vector<Bsdf> bsdfs = {
+      diffuse({0.5f, 0.5f, 0.5f}),
+      phong(0.4f, 0.3f, 50),
+      roughConductor(facets(kGgx, 0.05f)),
+      roughConductor(facets(kBeckmann, 0.05f)),
+      roughDielectric(facets(kGgx, 0.05f), 1.5f),
+      roughPlastic(facets(kGgx, 0.1f), {0.6f, 0.3f, 0.1f}, 1.5f, false)};
+  int checked = 0;
+  for (int b = 0; b < static_cast<int>(bsdfs.size()); ++b) {
+    const Material m = material(b);
+    for (const float u0 : {0.3f, 0.9f, 0.995f})
+      for (const float choice : {0.01f, 0.5f, 0.99f})
+        for (const float cosine : {0.9f, 0.3f, -0.78f}) {
+          const bool inside = cosine < 0;
+          if (inside && !std::holds_alternative<RoughDielectric>(bsdfs[std::size_t(b)])) continue;
+          const Vec3f wi = direction(cosine, 0.4f);
+          const LobeId lobe = chooseLobe(bsdfs, m, Vec2f(0), wi, u0, 0.37f, choice);
+          const auto log = [&]<class T>(T theta, T phi, T v0, T v1) {
+            const Vec3<T> in = spherical<T>(theta, phi);
+            const Vec3<T> out =
+                sampleMaterial<T>(bsdfs, m, Vec2<T>(T(0.f), T(0.f)), in, lobe, v0, v1);
+            const auto s = sampledMaterial<T>(bsdfs, m, Vec2<T>(T(0.f), T(0.f)), in, out);
+            return value(s.pdf) > 0 ? T(ad::log(luminance(s.weight))) : T(0.f);
+          };
+          const double theta = std::acos(static_cast<double>(cosine));
+          const F f = log(F::variable(static_cast<float>(theta), 0), F::variable(0.4f, 1),
+                          F::variable(u0, 2), F::variable(0.37f, 3));
+          const D d = log(D::variable(static_cast<float>(theta), 0), D::variable(double(0.4f), 1),
+                          D::variable(double(u0), 2), D::variable(double(0.37f), 3));
+          checked += d.v != 0;
+          double scale = 1;
+          for (int i = 0; i < 4; ++i)
+            for (int j = 0; j <= i; ++j) scale = std::max(scale, std::abs(d.hessian(i, j)));
+          for (int i = 0; i < 4; ++i)
+            for (int j = 0; j <= i; ++j)
+              EXPECT_NEAR(f.hessian(i, j), d.hessian(i, j), 1e-4 * scale)
+                  << b << " u0 " << u0 << " cosine " << cosine << " lobe " << int(lobe.lobe);
+        }
+  }
+  EXPECT_GT(checked, 60);
+}
+
+// log of value, pdf, pdfReverse and weight by the angles of both directions, where all are well away from
 // zero, from the horizon and from the critical angle.
 TEST(BsdfDerivative, MatchesFiniteDifferences) {
   using D = ad::Dual2<double, 4>;
@@ -89,11 +136,15 @@ TEST(BsdfDerivative, MatchesFiniteDifferences) {
             if (std::abs(wo.z) < 0.1f) continue;
             const double at[4] = {std::acos(wi.z), std::atan2(wi.y, wi.x), std::acos(wo.z),
                                   std::atan2(wo.y, wo.x)};
-            for (int which = 0; which < 3; ++which) {
+            for (int which = 0; which < 4; ++which) {
               const auto f = [&](const auto* x) {
                 using T = std::remove_cvref_t<decltype(x[0])>;
-                const auto e = b.template evaluate<T>(
-                    Vec2<T>(T(uv.x), T(uv.y)), spherical<T>(x[0], x[1]), spherical<T>(x[2], x[3]));
+                const Vec2<T> at(T(uv.x), T(uv.y));
+                const Vec3<T> in = spherical<T>(x[0], x[1]), out = spherical<T>(x[2], x[3]);
+                if (which == 3)
+                  return T(ad::log(luminance(
+                      sampledMaterial<T>(std::span(&c.bsdf, 1), material(0), at, in, out).weight)));
+                const auto e = b.template evaluate<T>(at, in, out);
                 return T(
                     ad::log(which == 0 ? luminance(e.value) : (which == 1 ? e.pdf : e.pdfReverse)));
               };

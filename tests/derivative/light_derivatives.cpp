@@ -14,7 +14,7 @@ template <class T>
 std::vector<T> outputs(const DirectLight<T>& r) {
   std::vector<T> out{r.distance, r.directPdf, r.emissionPdf, r.cosLight};
   append(out, r.direction);
-  append(out, r.radiance);
+  append(out, r.arriving);
   return out;
 }
 template <class T>
@@ -23,7 +23,7 @@ std::vector<T> outputs(const EmittedRay<T>& r) {
   append(out, r.origin);
   append(out, r.direction);
   append(out, r.normal);
-  append(out, r.power);
+  append(out, r.flux);
   return out;
 }
 template <class T>

@@ -156,7 +156,7 @@ TEST(MotionDerivatives, AreaLights) {
                                              x[2], &x[3]);
         std::vector<T> out{d.distance, d.directPdf, d.emissionPdf, d.cosLight};
         append(out, d.direction);
-        append(out, d.radiance);
+        append(out, d.arriving);
         return out;
       };
       const auto values = direct.operator()<double>({0, u0, u1, time});

@@ -83,6 +83,8 @@ TEST(BsdfSampling, DensitiesMatchByChiSquare) {
 struct Mean {
   double value, error;
 };
+// What the weight stands for.
+Rgbf reflectance(const DeltaSample<float>& d) { return d.importance * d.probability; }
 template <class B>
 Mean sampledAlbedo(const B& b, const Vec3f& wi, int draws, std::uint64_t stream) {
   Random random(21, stream, 0);
@@ -93,7 +95,7 @@ Mean sampledAlbedo(const B& b, const Vec3f& wi, int draws, std::uint64_t stream)
     double w = 0;
     if (b.isDelta(lobe)) {
       const auto d = b.template sampleDelta<float>(kUv, wi, lobe);
-      w = d.importance.y / d.probability;
+      w = d.importance.y;
     } else {
       const Vec3f wo = b.template sample<float>(kUv, wi, lobe, u0, u1);
       const auto e = b.template evaluate<float>(kUv, wi, wo);
@@ -125,7 +127,7 @@ TEST(BsdfSampling, AlbedoIsAtMostOneAndMatchesQuadrature) {
             double integral = 0;
             for (int lobe = 0; lobe < B::kLobes; ++lobe)
               if (b.isDelta(lobe))
-                integral += b.template sampleDelta<float>(kUv, wi, lobe).importance.y;
+                integral += reflectance(b.template sampleDelta<float>(kUv, wi, lobe)).y;
             for (const int side : {1, -1}) {
               const int lobe = c.entersBack && side * cosine < 0 ? 1 : 0;
               double scale = 1;

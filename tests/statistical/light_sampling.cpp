@@ -185,7 +185,7 @@ TEST(LightSampling, PowerIsTheFluxOfTheRays) {
       with(c, [&](const auto& l) {
         const PrimitiveId id = l.choosePrimitive(c.context(), choice);
         const auto e = l.template sampleEmission<float>(c.context(), id, u0, u1, v0, v1);
-        flux.add(static_cast<double>(luminance(e.power) / e.emissionPdf));
+        flux.add(static_cast<double>(luminance(e.flux)));
       });
     }
     const double power =
@@ -212,7 +212,7 @@ TEST(LightSampling, IrradianceBothWays) {
         const PrimitiveId id = l.choosePrimitive(c.context(), choice);
         const auto r = l.template sampleDirect<float>(c.context(), id, kReference, u0, u1);
         const float cosine = std::max(dot(r.direction, normal), 0.0f);
-        sampled.add(static_cast<double>(luminance(r.radiance) * cosine / r.directPdf));
+        sampled.add(static_cast<double>(luminance(r.arriving) * cosine));
       });
       const float v0 = random.uniform(), v1 = random.uniform();
       const Vec2f d = detail::uniformDisk(v0, v1);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/bsdf/bsdf.h"
+#include "render/bsdf/material.h"
 
 namespace h2mc::test {
 
@@ -80,6 +80,16 @@ inline RoughPlastic roughPlastic(Microfacet f, const Rgbf& color, float eta, boo
   b.base = LayeredDiffuse(constantTexture(color), 1, b.transmittance->internalReflectance(), eta,
                           nonlinear);
   return b;
+}
+
+inline Material material(int front, int back = -1, bool twosided = false,
+                         TexturePtr opacity = nullptr) {
+  Material m;
+  m.front = front;
+  m.back = back;
+  m.twosided = twosided;
+  m.opacity = std::move(opacity);
+  return m;
 }
 
 // Every kind of BSDF with lobes that are not delta, from mirror-like to rough.

@@ -166,6 +166,41 @@ TEST(Bsdf, FiniteForAllUnitVectors) {
   }
 }
 
+// The closed forms are what evaluate() says of the same two directions.
+TEST(Bsdf, SampledWeightIsValueOverDensity) {
+  Random random(8, 3, 0);
+  int weighed = 0;
+  for (const BsdfCase& c : glossyCases()) {
+    const std::vector<Bsdf> bsdfs = {c.bsdf};
+    const Material m = material(0);
+    for (int k = 0; k < 300; ++k) {
+      const float side = c.entersBack && k % 2 ? -1.0f : 1.0f;
+      const Vec3f wi = direction(side * (0.02f + 0.97f * random.uniform()), 6 * random.uniform());
+      const float u0 = random.uniform(), u1 = random.uniform();
+      const LobeId lobe = chooseLobe(bsdfs, m, kUv, wi, u0, u1, random.uniform());
+      if (isDelta(bsdfs, m, lobe)) continue;
+      const Vec3<double> in = glm::normalize(Vec3<double>(wi));
+      const Vec3<double> out =
+          glm::normalize(Vec3<double>(sampleMaterial<float>(bsdfs, m, kUv, wi, lobe, u0, u1)));
+      const Vec2<double> uv(kUv);
+      const auto e = evaluateMaterial<double>(bsdfs, m, uv, in, out);
+      const auto s = sampledMaterial<double>(bsdfs, m, uv, in, out);
+      EXPECT_NEAR(s.pdf, e.pdf, 1e-10 * e.pdf) << c.name;
+      if (!(e.pdf > 0)) continue;
+      ++weighed;
+      EXPECT_NEAR(s.pdfReverse, e.pdfReverse, 1e-10 * e.pdfReverse) << c.name;
+      for (int channel = 0; channel < 3; ++channel)
+        EXPECT_NEAR(s.weight[channel] * s.pdf, e.value[channel], 1e-8 * e.value[channel])
+            << c.name << " " << in.z << " " << out.z;
+      // The other way round: light that comes from `in`.
+      const auto reverse = evaluateMaterial<double>(bsdfs, m, uv, out, in);
+      const double expected = reverse.value.y * std::abs(out.z / in.z) / s.pdf;
+      EXPECT_NEAR(s.weight.y * s.importance, expected, 1e-8 * expected) << c.name;
+    }
+  }
+  EXPECT_GT(weighed, 2000);
+}
+
 // One-sided BSDFs scatter nothing on or from the back.
 TEST(Bsdf, NothingBehindOneSidedSurfaces) {
   const Vec3f up = direction(0.6f, 1), down = direction(-0.4f, 2);
@@ -197,7 +232,8 @@ TEST(Bsdf, MirrorsAndGlassObeySnellAndFresnel) {
     const float relative = side > 0 ? 1.5f : 1 / 1.5f;
     const auto r = glass.sampleDelta<float>(kUv, in, Dielectric::kReflect);
     const auto t = glass.sampleDelta<float>(kUv, in, Dielectric::kTransmit);
-    EXPECT_NEAR(r.importance.x + t.importance.x, 1, 1e-6);
+    EXPECT_EQ(r.importance, Rgbf(1));
+    EXPECT_EQ(t.importance, Rgbf(1));
     EXPECT_NEAR(r.probability + t.probability, 1, 1e-6);
     EXPECT_NEAR(t.radiance.x, t.importance.x / (relative * relative), 1e-6);
     EXPECT_NEAR(glm::length(t.wo), 1, 1e-6);

@@ -55,7 +55,8 @@ TEST(Lights, HitAgreesWithSampleDirect) {
             << c.name;
         const bool edgeOfField = c.name == "textured";
         if (!edgeOfField)
-          expectNear(r.radiance, h.radiance, 2e-3f * (glm::length(h.radiance) + 0.1f), c.name);
+          expectNear(r.arriving * r.directPdf, h.radiance, 2e-3f * (glm::length(h.radiance) + 0.1f),
+                     c.name);
       });
     }
   }
@@ -85,8 +86,8 @@ TEST(Lights, EmittedRaysAgreeWithDirectSamples) {
         const float tolerance = c.name.find("envmap") == std::string::npos ? 2e-3f : 2e-2f;
         expectSame(e.emissionPdf, d.emissionPdf, c.name, tolerance);
         if (c.name != "textured")
-          expectNear(e.power, d.radiance * d.cosLight, tolerance * (glm::length(e.power) + 0.1f),
-                     c.name);
+          expectNear(e.flux * e.emissionPdf, d.arriving * d.directPdf * d.cosLight,
+                     tolerance * (glm::length(e.flux * e.emissionPdf) + 0.1f), c.name);
         if (c.isArea())
           expectSame(e.directPdf, d.directPdf * d.cosLight / (d.distance * d.distance), c.name,
                      2e-3f);
@@ -186,19 +187,19 @@ TEST(Lights, AreaLightsEmitOnTheirNormalsSide) {
       areaCase("square", parallelogram(Vec3f(-1, -1, 0), Vec3f(2, 0, 0), Vec3f(0, 2, 0)));
   const auto& l = std::get<AreaLight>(c.light);
   const auto front = l.sampleDirect<float>(c.context(), {0, 0}, Vec3f(0, 0, 2), 0.5f, 0.5f);
-  EXPECT_EQ(front.radiance, Rgbf(1, 2, 3));
+  EXPECT_EQ(front.arriving, Rgbf(1, 2, 3));
   EXPECT_FLOAT_EQ(front.directPdf, 1);  // 2^2 / (1 * 4)
   EXPECT_FLOAT_EQ(front.distance, 2);
   EXPECT_FLOAT_EQ(front.emissionPdf, kInvPi / 4);
   EXPECT_EQ(front.position, Vec3f(0));
   EXPECT_EQ(front.normal, Vec3f(0, 0, 1));
   const auto back = l.sampleDirect<float>(c.context(), {0, 0}, Vec3f(0, 0, -2), 0.5f, 0.5f);
-  EXPECT_EQ(back.radiance, Rgbf(0));
+  EXPECT_EQ(back.arriving, Rgbf(0));
   EXPECT_EQ(back.emissionPdf, 0);
   EXPECT_FLOAT_EQ(back.directPdf, 1);
   const auto at = l.sampleDirect<float>(c.context(), {0, 0}, Vec3f(0), 0.5f, 0.5f);
   EXPECT_EQ(at.directPdf, 0);
-  EXPECT_EQ(at.radiance, Rgbf(0));
+  EXPECT_EQ(at.arriving, Rgbf(0));
   SurfacePoint<float> p = samplePrimitive<float>(c.shapes, {0, 0}, 0.5f, 0.5f);
   EXPECT_EQ(l.hit<float>(c.context(), p, Vec3f(0, 0, -1)).radiance, Rgbf(1, 2, 3));
   EXPECT_EQ(l.hit<float>(c.context(), p, Vec3f(0, 0, 1)).radiance, Rgbf(0));
@@ -217,28 +218,29 @@ TEST(Lights, TextureFollowsTheSurface) {
     for (const float u1 : {0.2f, 0.45f, 0.7f}) {
       const auto p = samplePrimitive<float>(c.shapes, {0, 0}, u0, u1);
       const Rgbf expected = evaluate<float>(*l.radiance, p.uv);
-      EXPECT_EQ(l.sampleDirect<float>(c.context(), {0, 0}, Vec3f(0, 0, 2), u0, u1).radiance,
-                expected);
+      const auto d = l.sampleDirect<float>(c.context(), {0, 0}, Vec3f(0, 0, 2), u0, u1);
+      expectNear(d.arriving * d.directPdf, expected, 1e-6f, "direct");
       const auto e = l.sampleEmission<float>(c.context(), {0, 0}, u0, u1, 0.3f, 0.2f);
-      expectNear(e.power, expected * e.cosLight, 1e-6f, "emitted");
+      expectNear(e.flux * e.emissionPdf, expected * e.cosLight, 1e-6f, "emitted");
     }
 }
 
 TEST(Lights, SpotFallsOffLinearlyInTheAngle) {
   const SpotLight l(Vec3f(0), Vec3f(0, 0, 1), Rgbf(2), 40, 20);
   const LightContext context{};
-  const auto radianceAt = [&](float degrees) {
+  const auto intensityAt = [&](float degrees) {
     const float a = glm::radians(degrees);
-    return l.sampleDirect<float>(context, {}, Vec3f(std::sin(a), 0, std::cos(a)) * 3.0f, 0.5f, 0.5f)
-        .radiance.x;
+    const Vec3f point = Vec3f(std::sin(a), 0, std::cos(a)) * 3.0f;
+    const auto d = l.sampleDirect<float>(context, {}, point, 0.5f, 0.5f);
+    return d.arriving.x * d.directPdf;
   };
-  EXPECT_FLOAT_EQ(radianceAt(0), 2);
-  EXPECT_FLOAT_EQ(radianceAt(19), 2);
-  EXPECT_NEAR(radianceAt(25), 1.5f, 1e-4f);
-  EXPECT_NEAR(radianceAt(30), 1, 1e-4f);
-  EXPECT_NEAR(radianceAt(39), 0.1f, 1e-4f);
-  EXPECT_EQ(radianceAt(41), 0);
-  EXPECT_EQ(radianceAt(170), 0);
+  EXPECT_FLOAT_EQ(intensityAt(0), 2);
+  EXPECT_FLOAT_EQ(intensityAt(19), 2);
+  EXPECT_NEAR(intensityAt(25), 1.5f, 1e-4f);
+  EXPECT_NEAR(intensityAt(30), 1, 1e-4f);
+  EXPECT_NEAR(intensityAt(39), 0.1f, 1e-4f);
+  EXPECT_EQ(intensityAt(41), 0);
+  EXPECT_EQ(intensityAt(170), 0);
 }
 
 // Up is +y, the middle of the picture is +z, u grows from -z by way of +x.

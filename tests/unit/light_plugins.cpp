@@ -100,7 +100,7 @@ TEST(LightPlugins, Defaults) {
   const Light spot = make("spot");
   const auto at = [&](float degrees) {
     const float a = glm::radians(degrees);
-    return direct<SpotLight>(spot, Vec3f(std::sin(a), 0, std::cos(a))).radiance.x;
+    return direct<SpotLight>(spot, Vec3f(std::sin(a), 0, std::cos(a))).arriving.x;
   };
   EXPECT_FLOAT_EQ(at(14.9f), 1);
   EXPECT_NEAR(at(17.5f), 0.5f, 1e-4f);
@@ -118,9 +118,9 @@ TEST(LightPlugins, Places) {
   EXPECT_NEAR(std::get<DirectionalLight>(turned).direction.x, 1, 1e-6f);
   // A spot light at (1, 2, 3) that looks along +x.
   const Light spot = make("spot", {{"toWorld", rotationAboutY(90, 2)}, {"intensity", Rgbf(8)}});
-  EXPECT_EQ(direct<SpotLight>(spot, Vec3f(3, 2, 3)).radiance, Rgbf(8));
+  EXPECT_EQ(direct<SpotLight>(spot, Vec3f(3, 2, 3)).arriving, Rgbf(2));
   EXPECT_FLOAT_EQ(direct<SpotLight>(spot, Vec3f(3, 2, 3)).directPdf, 4);
-  EXPECT_EQ(direct<SpotLight>(spot, Vec3f(1, 2, 5)).radiance, Rgbf(0));
+  EXPECT_EQ(direct<SpotLight>(spot, Vec3f(1, 2, 5)).arriving, Rgbf(0));
 }
 
 TEST(LightPlugins, Mistakes) {

@@ -11,10 +11,13 @@ namespace {
 
 // Neighbouring paths that tell rounding from mistakes, and how far they lie away: this share of the
 // length on which the target varies, but some units of the coordinates' last place.
-constexpr int kNeighbours = 16;
+constexpr int kNeighbours = 16, kNearer = 32;
 constexpr double kDistance = 0x1p-6, kShortest = 0x1p-22;
+constexpr double kMostMagnified = 0x1p6;
 // How much more than the value's a derivative's relative error may be, when both are rounding.
 constexpr double kMagnified = 10;
+// Where the target traced in float is off by so much, its path and the one in double have parted.
+constexpr double kAnotherPath = 0.5;
 // Where float's range ends, a target has no more digits.
 constexpr float kSmallestTarget = 1e-36f;
 constexpr std::uint64_t kStream = 0x677267;
@@ -52,6 +55,45 @@ double distance(const std::vector<double>& a, const std::vector<double>& b, bool
   return norm(difference, triangle);
 }
 
+// How many times larger than their own the rounding of points, and of coordinates on a primitive, is as that
+// of directions between them: how far from the origin they are and how large the primitive is, over what
+// they are apart, where that is most.
+double magnification(const Scene& scene, const Path& path) {
+  double most = 1;
+  const auto size = [&](const TracedVertex& v) {
+    const double area = primitiveArea(scene.shapes[v.id.shape], v.id.primitive);
+    return std::max(double(glm::length(v.vertex.point.p)), std::sqrt(area));
+  };
+  const auto look = [&](const TracedVertex& a, const TracedVertex& b) {
+    const double apart = glm::distance(a.vertex.point.p, b.vertex.point.p);
+    if (apart > 0) most = std::max(most, std::max(size(a), size(b)) / apart);
+  };
+  const auto [s, t] = path.technique;
+  const int last = path.escaped ? t - 2 : t - 1;
+  if (last >= 1) {
+    const TracedVertex& first = path.camera[1];
+    const Vec3f eye = withCameraPose<float>(scene, &path.sample.time,
+                                            [](const auto& pose) { return Vec3f(pose.position); });
+    most = std::max(most, size(first) / glm::distance(eye, first.vertex.point.p));
+  }
+  for (int i = 1; i < last; ++i)
+    look(path.camera[static_cast<std::size_t>(i)], path.camera[static_cast<std::size_t>(i) + 1]);
+  for (int i = 1; i < s - 1; ++i)
+    look(path.light[static_cast<std::size_t>(i)], path.light[static_cast<std::size_t>(i) + 1]);
+  return std::min(most, kMostMagnified);
+}
+
+// How far the derivatives in double of paths nearby are from those of the path, at most.
+struct Spread {
+  double value = 0, gradient = 0, hessian = 0;
+
+  void add(const ad::DerivativeValues& there, const ad::DerivativeValues& here) {
+    value = std::max(value, std::abs(there.value - here.value));
+    gradient = std::max(gradient, distance(there.gradient, here.gradient, false));
+    hessian = std::max(hessian, distance(there.hessian, here.hessian, true));
+  }
+};
+
 // Whether the mean of `count` differences is no more than `allowed` and three standard errors.
 bool isRounding(const Scatter& scatter, int count, double allowed, bool triangle) {
   double variance = 0;
@@ -71,6 +113,26 @@ struct Scales {
 Scales scalesOf(const ad::DerivativeValues& exact) {
   const double hessian = std::max(1.0, norm(exact.hessian, true));
   return {std::max(std::sqrt(hessian), norm(exact.gradient, false)), hessian};
+}
+
+// Moves `near` by up to reach[i] along each coordinate. False if no light comes that way, or the derivative
+// in double is not finite there; its topology may be another: it is a path all the same.
+bool neighbour(const Scene& scene, const std::vector<double>& reach,
+               const GradcheckSettings& settings, Random& random, Path& near,
+               ad::DerivativeValues& there) {
+  const int own = near.technique.dimension();
+  const bool moving = near.moving;
+  double u[kMostCoordinates];
+  pathCoordinates(near, u);
+  for (std::size_t i = 0; i < reach.size(); ++i) {
+    const double moved = u[i] + reach[i] * (2 * random.uniformDouble() - 1);
+    (static_cast<int>(i) < own ? near.sample.u[i] : near.sample.time) =
+        std::clamp(static_cast<float>(moved), 0.0f, 0x1.fffffep-1f);
+  }
+  if (!tracePath(scene, near) || near.moving != moving) return false;
+  pathCoordinates(near, u);
+  there = settings.exact ? settings.exact(scene, near, u) : differentiateInDouble(scene, near, u);
+  return there.finite();
 }
 
 }  // namespace
@@ -108,41 +170,49 @@ FormCheck checkForm(const Scene& scene, const Path& path, const ad::DerivativeVa
     return result;
   }
 
-  const int n = path.dimension(), own = path.technique.dimension();
-  double here[kMostCoordinates];
-  pathCoordinates(path, here);
   const std::vector<double> scales = ad::coordinateScales(exact);
+  std::vector<double> reach(scales.size());
+  for (std::size_t i = 0; i < reach.size(); ++i)
+    reach[i] = std::max(kShortest, kDistance / scales[i]);
   Scatter value(1), gradient(exact.gradient.size()), hessian(exact.hessian.size());
+  Spread spread;
   Random random(settings.seed, kStream, 0);
-  Path near = path;
   int count = 0;
   for (int k = 0; k < kNeighbours; ++k) {
-    for (int i = 0; i < n; ++i) {
-      const auto index = static_cast<std::size_t>(i);
-      const double reach = std::max(kShortest, kDistance / scales[index]);
-      const double moved = here[index] + reach * (2 * random.uniformDouble() - 1);
-      (i < own ? near.sample.u[index] : near.sample.time) =
-          std::clamp(static_cast<float>(moved), 0.0f, 0x1.fffffep-1f);
-    }
-    // Its topology may be another: it is a path all the same.
-    if (!tracePath(scene, near) || near.moving != path.moving) continue;
-    double u[kMostCoordinates];
-    pathCoordinates(near, u);
-    const ad::DerivativeValues there =
-        settings.exact ? settings.exact(scene, near, u) : differentiateInDouble(scene, near, u);
-    ad::DerivativeValues inFloat;
-    if (!there.finite() || !form.differentiate(scene, near, inFloat) || !inFloat.finite()) continue;
+    Path near = path;
+    ad::DerivativeValues there, inFloat;
+    if (!neighbour(scene, reach, settings, random, near, there)) continue;
+    if (!form.differentiate(scene, near, inFloat) || !inFloat.finite()) continue;
     ++count;
     value.add({std::log(double(near.target))}, {there.value});
     gradient.add(inFloat.gradient, there.gradient);
     hessian.add(inFloat.hessian, there.hessian);
   }
-  const double allowed = tolerance + kMagnified * std::sqrt(value.squares[0] / std::max(count, 1));
+  const double magnified = magnification(scene, path);
+  // From one unit of the last place of coordinates near 1 on.
+  for (int k = 0; k < kNearer; ++k) {
+    std::fill(reach.begin(), reach.end(),
+              0x1p-24 * std::pow(4 * magnified, double(k) / (kNearer - 1)));
+    Path near = path;
+    ad::DerivativeValues there;
+    if (neighbour(scene, reach, settings, random, near, there)) spread.add(there, exact);
+  }
+  // By how much the target is off as it is traced in float: no business of the derivative's.
+  const double off = std::abs(std::log(double(path.target)) - exact.value);
+  const double own = tolerance + kMagnified * std::max(off, double(result.value));
+  const double allowed =
+      tolerance + kMagnified * std::max(off, std::sqrt(value.squares[0] / std::max(count, 1)));
+  const bool many = count >= kNeighbours / 2;
+  const auto explained = [&](double error, double furthest, const Scatter& scatter, double scale,
+                             bool triangle) {
+    return error <= own || error <= tolerance + furthest / scale ||
+           (many && isRounding(scatter, count, allowed * scale, triangle));
+  };
   const bool rounding =
-      path.target < kSmallestTarget ||
-      (valueRight && count >= kNeighbours / 2 &&
-       (within(result.gradient) || isRounding(gradient, count, allowed * gradientScale, false)) &&
-       (within(result.hessian) || isRounding(hessian, count, allowed * hessianScale, true)));
+      path.target < kSmallestTarget || off > kAnotherPath ||
+      ((valueRight || result.value <= tolerance + spread.value) &&
+       explained(result.gradient, spread.gradient, gradient, gradientScale, false) &&
+       explained(result.hessian, spread.hessian, hessian, hessianScale, true));
   result.verdict = rounding ? FormVerdict::kRounding : FormVerdict::kWrong;
   return result;
 }

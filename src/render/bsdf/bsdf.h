@@ -36,6 +36,9 @@ namespace h2mc {
 //   // Zero where there is no scattering; finite for all unit vectors.
 //   template <class T> BsdfValue<T> evaluate(const Vec2<T>& uv, const Vec3<T>& wi, const Vec3<T>& wo);
 //
+//   // Optional: what evaluate() says of a wo that was drawn for wi, in closed form; see SampledBsdf.
+//   template <class T> SampledBsdf<T> sampled(const Vec2<T>& uv, const Vec3<T>& wi, const Vec3<T>& wo);
+//
 //   // The lobe drawn for wi with the choice coordinate in [0, 1); (u0, u1) are the direction's
 //   // coordinates, which some lobes' probabilities depend on (roughdielectric's facet).
 //   int chooseLobe(const Vec2f& uv, const Vec3f& wi, float u0, float u1, float choice);
@@ -56,9 +59,9 @@ namespace h2mc {
 //   bool invert(const Vec2f& uv, const Vec3f& wi, const Vec3f& wo, int lobe, Vec2f& u);
 //
 //   // Delta lobes: the direction, the coefficient of radiance transport from wo to wi (Fresnel
-//   // reflectance, or transmittance with (eta_i/eta_o)^2; no cosine, nothing divided by), the same
-//   // for importance (without the eta factor), and the probability that chooseLobe picks it.
-//   // DeltaSample::none() where the lobe scatters nothing.
+//   // reflectance, or transmittance with (eta_i/eta_o)^2; no cosine) over the probability that
+//   // chooseLobe picks the lobe, the same for importance (without the eta factor), and that
+//   // probability. DeltaSample::none() where the lobe scatters nothing.
 //   template <class T> DeltaSample<T> sampleDelta(const Vec2<T>& uv, const Vec3<T>& wi, int lobe);
 //
 //   // A number that orders BSDFs by how concentrated they are: the lobe's width in radians

@@ -37,7 +37,7 @@ struct Conductor {
   DeltaSample<T> sampleDelta(const Vec2<T>& uv, const Vec3<T>& wi, int) const {
     if (!(value(wi.z) > 0)) return DeltaSample<T>::none();
     const Rgb<T> f = index.reflect(modulate<T>(*specular, uv, T(Scalar<T>(scale))), wi.z);
-    return {mirrored(wi), f, f, T(1)};
+    return {mirrored(wi), f, f, 1};
   }
   float width(int) const { return 0; }
   Rgbf albedo() const { return index.reflect<float>(average(*specular) * scale, 0.8f); }

@@ -46,17 +46,17 @@ struct Dielectric {
     const S relative = inside ? S(1) / S(eta) : S(eta);
     const T c = inside ? T(-wi.z) : wi.z;
     if (lobe == kReflect) {
-      const T f = fresnelDielectric(c, relative);
-      if (!(value(f) > 0)) return DeltaSample<T>::none();
-      const Rgb<T> r = modulate<T>(*specularReflectance, uv, f * S(reflectanceScale));
+      const S f = fresnelDielectric(value(c), relative);
+      if (!(f > 0)) return DeltaSample<T>::none();
+      const Rgb<T> r = modulate<T>(*specularReflectance, uv, T(S(reflectanceScale)));
       return {mirrored(wi), r, r, f};
     }
     const S inverse = S(1) / relative;
     const T cosFar2 = (c * c - S(1)) * (inverse * inverse) + S(1);
-    const T t = transmitDielectric(c, relative);
-    if (!(value(cosFar2) > 0 && value(t) > 0)) return DeltaSample<T>::none();
+    const S t = transmitDielectric(value(c), relative);
+    if (!(value(cosFar2) > 0 && t > 0)) return DeltaSample<T>::none();
     const T cosFar = ad::sqrt(cosFar2);
-    const Rgb<T> r = modulate<T>(*specularTransmittance, uv, t * S(transmittanceScale));
+    const Rgb<T> r = modulate<T>(*specularTransmittance, uv, T(S(transmittanceScale)));
     return {{wi.x * -inverse, wi.y * -inverse, inside ? cosFar : T(-cosFar)},
             r * (inverse * inverse),
             r,

@@ -23,6 +23,13 @@ struct Diffuse {
     const S invPi = kInvPiOf<T>;
     return {modulate<T>(*reflectance, uv, wo.z * (invPi * S(scale))), wo.z * invPi, wi.z * invPi};
   }
+  template <class T>
+  SampledBsdf<T> sampled(const Vec2<T>& uv, const Vec3<T>& wi, const Vec3<T>& wo) const {
+    using S = Scalar<T>;
+    if (!(value(wi.z) > 0 && value(wo.z) > 0)) return SampledBsdf<T>::zero();
+    const S invPi = kInvPiOf<T>;
+    return {modulate<T>(*reflectance, uv, T(S(scale))), wo.z * invPi, wi.z * invPi};
+  }
   float lobeSplit(const Vec2f&, const Vec3f&, float, float) const { return 1; }
   int chooseLobe(const Vec2f&, const Vec3f&, float, float, float) const { return 0; }
   template <class T>

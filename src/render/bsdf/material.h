@@ -59,6 +59,38 @@ BsdfValue<T> evaluateMaterial(std::span<const Bsdf> bsdfs, const Material& mater
   return r;
 }
 
+// Where wo was drawn for wi. A BSDF without a formula of its own for this has that of evaluate().
+template <class T>
+SampledBsdf<T> sampledMaterial(std::span<const Bsdf> bsdfs, const Material& material,
+                               const Vec2<T>& uv, const Vec3<T>& wi, const Vec3<T>& wo) {
+  bool back;
+  const Bsdf* const bsdf = detail::seen(bsdfs, material, value(wi.z), back);
+  if (!bsdf) return SampledBsdf<T>::zero();
+  const auto inner = [&](const Vec3<T>& i, const Vec3<T>& o) {
+    return std::visit(
+        [&](const auto& b) {
+          if constexpr (requires { b.template sampled<T>(uv, i, o); }) {
+            return b.template sampled<T>(uv, i, o);
+          } else {
+            const BsdfValue<T> e = b.template evaluate<T>(uv, i, o);
+            if (!(value(e.pdf) > 0)) return SampledBsdf<T>::zero();
+            return SampledBsdf<T>{e.value * T(Scalar<T>(1) / e.pdf), e.pdf, e.pdfReverse};
+          }
+        },
+        *bsdf);
+  };
+  SampledBsdf<T> r = back ? inner(flipped(wi), flipped(wo)) : inner(wi, wo);
+  if (material.opacity) {
+    const Rgb<T> opacity = evaluate<T>(*material.opacity, uv);
+    const T p = detail::opacityProbability(opacity);
+    if (!(value(p) > 0)) return SampledBsdf<T>::zero();
+    r.weight = r.weight * opacity * T(Scalar<T>(1) / p);
+    r.pdf = r.pdf * p;
+    r.pdfReverse = r.pdfReverse * p;
+  }
+  return r;
+}
+
 inline LobeId chooseLobe(std::span<const Bsdf> bsdfs, const Material& material, const Vec2f& uv,
                          const Vec3f& wi, float u0, float u1, float choice) {
   LobeId id;
@@ -135,9 +167,12 @@ DeltaSample<T> sampleDelta(std::span<const Bsdf> bsdfs, const Material& material
   if (lobe.null) {
     if (!material.opacity) return DeltaSample<T>::none();
     const Rgb<T> opacity = evaluate<T>(*material.opacity, uv);
-    const Rgb<T> passed(Scalar<T>(1) - opacity.x, Scalar<T>(1) - opacity.y,
-                        Scalar<T>(1) - opacity.z);
-    return {-wi, passed, passed, Scalar<T>(1) - detail::opacityProbability(opacity)};
+    const T probability = Scalar<T>(1) - detail::opacityProbability(opacity);
+    if (!(value(probability) > 0)) return DeltaSample<T>::none();
+    const T inverse = Scalar<T>(1) / probability;
+    const Rgb<T> passed((Scalar<T>(1) - opacity.x) * inverse, (Scalar<T>(1) - opacity.y) * inverse,
+                        (Scalar<T>(1) - opacity.z) * inverse);
+    return {-wi, passed, passed, value(probability)};
   }
   const Bsdf* const bsdf = detail::ofLobe(bsdfs, material, lobe);
   if (!bsdf) return DeltaSample<T>::none();
@@ -149,9 +184,12 @@ DeltaSample<T> sampleDelta(std::span<const Bsdf> bsdfs, const Material& material
   if (lobe.back) r.wo = flipped(r.wo);
   if (material.opacity) {
     const Rgb<T> opacity = evaluate<T>(*material.opacity, uv);
-    r.radiance = r.radiance * opacity;
-    r.importance = r.importance * opacity;
-    r.probability = r.probability * detail::opacityProbability(opacity);
+    const T p = detail::opacityProbability(opacity);
+    if (!(value(p) > 0)) return DeltaSample<T>::none();
+    const Rgb<T> share = opacity * T(Scalar<T>(1) / p);
+    r.radiance = r.radiance * share;
+    r.importance = r.importance * share;
+    r.probability = r.probability * value(p);
   }
   return r;
 }

@@ -24,7 +24,7 @@ enum class FacetDistribution : std::uint8_t { kBeckmann, kGgx };
 template <class T>
 struct FacetReflection {
   T cosHalf;          // wi.m = wo.m, 0 if nothing is reflected
-  T value;            // D G / (4 |cos(wi)|): BRDF times |cos(wo)|
+  T weight;           // D G / (4 |cos(wi)|), the BRDF times |cos(wo)|, over pdf
   T pdf, pdfReverse;  // of wo given wi, of wi given wo
   static FacetReflection none() { return {T(0), T(0), T(0), T(0)}; }
 };
@@ -70,6 +70,24 @@ struct Microfacet {
     });
   }
 
+  // G1(w). Where masking is weak it varies little with c, however fast c itself does: the product of
+  // maskingOverCos(c) and c would have to cancel that.
+  template <class T>
+  T masking(const T& cosine) const {
+    using S = Scalar<T>;
+    const S c2 = value(cosine) * value(cosine), a2 = S(alpha) * S(alpha), sin2 = S(1) - c2;
+    if (distribution == FacetDistribution::kBeckmann) {
+      if (!(c2 < S(2.56) * a2 * sin2)) return T(S(1));
+    } else if (a2 * sin2 < c2) {
+      return ofOne(cosine, [a2](const auto& c) {
+        using U = std::remove_cvref_t<decltype(c)>;
+        const U tan2 = S(1) / (c * c) - S(1);
+        return U(S(2) / (S(1) + ad::sqrt(U(S(1) + tan2 * a2))));
+      });
+    }
+    return maskingOverCos(cosine) * cosine;
+  }
+
   template <class T>
   FacetReflection<T> reflect(const Vec3<T>& wi, const Vec3<T>& wo) const {
     using S = Scalar<T>;
@@ -78,15 +96,18 @@ struct Microfacet {
     if (!(value(h2) > kSmallestHalf2)) return FacetReflection<T>::none();
     const T quarterD = density(h, h2) * S(0.25);
     if (!(value(quarterD) > 0)) return FacetReflection<T>::none();
-    const T gi = maskingOverCos(wi.z), go = maskingOverCos(wo.z);
     FacetReflection<T> r;
     r.cosHalf = ad::sqrt(T(h2 * S(0.25)));
-    r.pdf = quarterD * gi;
-    r.value = r.pdf * go * wo.z;
-    r.pdfReverse = quarterD * go;
-    // D(m) cos(m) / (4 wi.m), the same both ways.
-    if (distribution == FacetDistribution::kBeckmann)
-      r.pdf = r.pdfReverse = quarterD * h.z * (S(2) / h2);
+    r.weight = masking(wo.z);
+    if (distribution == FacetDistribution::kGgx) {
+      r.pdf = quarterD * maskingOverCos(wi.z);
+      r.pdfReverse = quarterD * maskingOverCos(wo.z);
+    } else {
+      // D(m) cos(m) / (4 wi.m), the same both ways.
+      const T drawn = h.z * (S(2) / h2);
+      r.weight = r.weight * maskingOverCos(wi.z) / drawn;
+      r.pdf = r.pdfReverse = quarterD * drawn;
+    }
     return r;
   }
 

@@ -36,6 +36,24 @@ struct Phong {
     r.pdfReverse = shared + wi.z * (wd * invPi);
     return r;
   }
+  template <class T>
+  SampledBsdf<T> sampled(const Vec2<T>& uv, const Vec3<T>& wi, const Vec3<T>& wo) const {
+    using S = Scalar<T>;
+    if (!(value(wi.z) > 0 && value(wo.z) > 0)) return SampledBsdf<T>::zero();
+    const S n = exponent, ws = specularWeight, wd = S(1) - ws;
+    const T base = wo.z * kInvPiOf<T>;
+    const T lobe = cosinePower(wi, wo) * (S(0.5) * kInvPiOf<T>);
+    const S drawn = ws * (n + S(1));
+    const T shared = lobe * drawn;
+    SampledBsdf<T> r;
+    r.pdf = shared + base * wd;
+    r.pdfReverse = shared + wi.z * (wd * kInvPiOf<T>);
+    if (!(value(r.pdf) > 0)) return SampledBsdf<T>::zero();
+    const MixtureShares<T> shares(base, lobe, wd, drawn);
+    r.weight = modulate<T>(*diffuse, uv, shares.first * S(scale)) +
+               modulate<T>(*specular, uv, shares.second * wo.z * ((n + S(2)) * S(scale)));
+    return r;
+  }
   float lobeSplit(const Vec2f&, const Vec3f&, float, float) const { return specularWeight; }
   int chooseLobe(const Vec2f&, const Vec3f&, float, float, float choice) const {
     return choice < specularWeight ? kSpecular : kDiffuse;

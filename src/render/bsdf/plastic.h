@@ -30,6 +30,21 @@ struct Plastic {
     return {base.modulated<T>(uv, through * wo.z * (invPi * S(base.inverseEta2))),
             diffuseProbability(wi.z) * wo.z * invPi, diffuseProbability(wo.z) * wi.z * invPi};
   }
+  template <class T>
+  SampledBsdf<T> sampled(const Vec2<T>& uv, const Vec3<T>& wi, const Vec3<T>& wo) const {
+    using S = Scalar<T>;
+    if (!(value(wi.z) > 0 && value(wo.z) > 0)) return SampledBsdf<T>::zero();
+    const S invPi = kInvPiOf<T>;
+    const T to = transmitDielectric(wo.z, S(eta));
+    const T probability = diffuseProbability(wi.z);
+    // The share that the coat lets in, over `probability`.
+    const T entering = ofOne(wi.z, [n = S(eta), ws = S(specularWeight)](const auto& c) {
+      using U = std::remove_cvref_t<decltype(c)>;
+      return U(transmitDielectric(c, n) + fresnelDielectric(c, n) * (ws / (S(1) - ws)));
+    });
+    return {base.modulated<T>(uv, entering * to * S(base.inverseEta2)), probability * wo.z * invPi,
+            diffuseProbability(wo.z) * wi.z * invPi};
+  }
   float lobeSplit(const Vec2f&, const Vec3f& wi, float, float) const {
     return wi.z > 0 ? diffuseProbability(wi.z) : 1;
   }
@@ -52,10 +67,13 @@ struct Plastic {
   DeltaSample<T> sampleDelta(const Vec2<T>& uv, const Vec3<T>& wi, int lobe) const {
     using S = Scalar<T>;
     if (lobe != kSpecular || !(value(wi.z) > 0)) return DeltaSample<T>::none();
+    const S probability = S(1) - diffuseProbability(value(wi.z));
+    if (!(probability > 0)) return DeltaSample<T>::none();
+    // Reflectance over that: (t (1 - ws) + f ws) / ws.
+    const S ws = specularWeight;
     const T f = fresnelDielectric(wi.z, S(eta));
-    const T probability = S(1) - diffuseProbability(wi.z);
-    if (!(value(probability) > 0)) return DeltaSample<T>::none();
-    const Rgb<T> r = modulate<T>(*specular, uv, f * S(specularScale));
+    const T weight = f + (S(1) - f) * ((S(1) - ws) / ws);
+    const Rgb<T> r = modulate<T>(*specular, uv, weight * S(specularScale));
     return {mirrored(wi), r, r, probability};
   }
   float width(int lobe) const { return lobe == kDiffuse ? kPi / 2 : 0; }

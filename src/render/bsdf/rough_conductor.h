@@ -24,8 +24,14 @@ struct RoughConductor {
     if (!(value(wi.z) > 0 && value(wo.z) > 0)) return BsdfValue<T>::zero();
     const FacetReflection<T> r = facets.reflect(wi, wo);
     if (!(value(r.pdf) > 0)) return BsdfValue<T>::zero();
-    const Rgb<T> scaled = modulate<T>(*specular, uv, r.value * Scalar<T>(scale));
-    return {index.reflect(scaled, r.cosHalf), r.pdf, r.pdfReverse};
+    return {coloured<T>(uv, r.pdf * r.weight, r.cosHalf), r.pdf, r.pdfReverse};
+  }
+  template <class T>
+  SampledBsdf<T> sampled(const Vec2<T>& uv, const Vec3<T>& wi, const Vec3<T>& wo) const {
+    if (!(value(wi.z) > 0 && value(wo.z) > 0)) return SampledBsdf<T>::zero();
+    const FacetReflection<T> r = facets.reflect(wi, wo);
+    if (!(value(r.pdf) > 0)) return SampledBsdf<T>::zero();
+    return {coloured<T>(uv, r.weight, r.cosHalf), r.pdf, r.pdfReverse};
   }
   float lobeSplit(const Vec2f&, const Vec3f&, float, float) const { return 1; }
   int chooseLobe(const Vec2f&, const Vec3f&, float, float, float) const { return 0; }
@@ -50,6 +56,12 @@ struct RoughConductor {
   }
   float width(int) const { return facets.width(); }
   Rgbf albedo() const { return index.reflect<float>(average(*specular) * scale, 0.8f); }
+
+ private:
+  template <class T>
+  Rgb<T> coloured(const Vec2<T>& uv, const T& amount, const T& cosHalf) const {
+    return index.reflect(modulate<T>(*specular, uv, amount * Scalar<T>(scale)), cosHalf);
+  }
 };
 
 }  // namespace h2mc

@@ -34,10 +34,33 @@ struct RoughDielectric {
       const FacetReflection<T> r = facets.reflect(in, out);
       if (!(value(r.pdf) > 0)) return BsdfValue<T>::zero();
       const T f = fresnelDielectric(r.cosHalf, relative);
-      return {modulate<T>(*specularReflectance, uv, r.value * f * S(reflectanceScale)), r.pdf * f,
+      const T pdf = r.pdf * f;
+      return {modulate<T>(*specularReflectance, uv, pdf * r.weight * S(reflectanceScale)), pdf,
               r.pdfReverse * f};
     }
-    return transmit(uv, in, out, relative);
+    const Transmission<T> t = transmit(in, out, relative);
+    if (!(value(t.pdf) > 0)) return BsdfValue<T>::zero();
+    return {modulate<T>(*specularTransmittance, uv, t.pdf * t.weight * S(transmittanceScale)),
+            t.pdf, t.pdfReverse};
+  }
+  template <class T>
+  SampledBsdf<T> sampled(const Vec2<T>& uv, const Vec3<T>& wi, const Vec3<T>& wo) const {
+    using S = Scalar<T>;
+    const S ci = value(wi.z), co = value(wo.z);
+    if (ci == 0 || co == 0) return SampledBsdf<T>::zero();
+    const S relative = relativeIndex<S>(ci);
+    const Vec3<T> in = ci < 0 ? flipped(wi) : wi, out = ci < 0 ? flipped(wo) : wo;
+    if ((ci > 0) == (co > 0)) {
+      const FacetReflection<T> r = facets.reflect(in, out);
+      if (!(value(r.pdf) > 0)) return SampledBsdf<T>::zero();
+      const T f = fresnelDielectric(r.cosHalf, relative);
+      return {modulate<T>(*specularReflectance, uv, r.weight * S(reflectanceScale)), r.pdf * f,
+              r.pdfReverse * f};
+    }
+    const Transmission<T> t = transmit(in, out, relative);
+    if (!(value(t.pdf) > 0)) return SampledBsdf<T>::zero();
+    return {modulate<T>(*specularTransmittance, uv, t.weight * S(transmittanceScale)), t.pdf,
+            t.pdfReverse, relative * relative};
   }
 
   float lobeSplit(const Vec2f&, const Vec3f& wi, float u0, float u1) const {
@@ -106,34 +129,42 @@ struct RoughDielectric {
     return cosine < 0 ? S(1) / S(eta) : S(eta);
   }
 
+  template <class T>
+  struct Transmission {
+    T weight;  // as SampledBsdf's, without the colour
+    T pdf, pdfReverse;
+    static Transmission none() { return {T(0), T(0), T(0)}; }
+  };
+
   // in.z > 0 > out.z. With h = in + eta out, parallel to the facet's normal m, the Jacobian's
   // (in.m + eta out.m)^2 [Walter et al., eq. 17] is |h|^2.
   template <class T>
-  BsdfValue<T> transmit(const Vec2<T>& uv, const Vec3<T>& in, const Vec3<T>& out,
-                        Scalar<T> relative) const {
+  Transmission<T> transmit(const Vec3<T>& in, const Vec3<T>& out, Scalar<T> relative) const {
     using S = Scalar<T>;
     Vec3<T> h = in + out * relative;
     if (value(h.z) < 0) h = -h;
     const T h2 = ad::length2(h);
-    if (!(value(h2) > Microfacet::kSmallestHalf2 && value(h.z) > 0)) return BsdfValue<T>::zero();
+    if (!(value(h2) > Microfacet::kSmallestHalf2 && value(h.z) > 0)) return Transmission<T>::none();
     const T inverse = ad::rsqrt(h2);
     const T ci = ad::dot(in, h) * inverse, co = ad::dot(out, h) * -inverse;
-    if (!(value(ci) > 0 && value(co) > 0)) return BsdfValue<T>::zero();
+    if (!(value(ci) > 0 && value(co) > 0)) return Transmission<T>::none();
     const T d = facets.density(h, h2);
-    if (!(value(d) > 0)) return BsdfValue<T>::zero();
+    if (!(value(d) > 0)) return Transmission<T>::none();
     const T down = -out.z;
-    const T gi = facets.maskingOverCos(in.z), go = facets.maskingOverCos(down);
     const T shared = d * transmitDielectric(ci, co, relative) / h2;
-    BsdfValue<T> r;
-    // Radiance is divided by relative^2 as it enters the denser side, which cancels eq. 21's.
-    const T reverse = shared * ci * co * go;
-    r.value = modulate<T>(*specularTransmittance, uv, reverse * gi * down * S(transmittanceScale));
+    const S relative2 = relative * relative;
+    Transmission<T> r;
+    // Radiance is divided by relative^2 as it enters the denser side, which eq. 21 multiplies by.
+    r.weight = facets.masking(down) * (S(1) / relative2);
     if (facets.distribution == FacetDistribution::kGgx) {
-      r.pdf = shared * ci * co * gi * (relative * relative);
-      r.pdfReverse = reverse;
+      const T seen = shared * ci * co;
+      r.pdf = seen * facets.maskingOverCos(in.z) * relative2;
+      r.pdfReverse = seen * facets.maskingOverCos(down);
     } else {
-      const T drawn = shared * h.z * inverse;
-      r.pdf = drawn * co * (relative * relative);
+      const T tilt = h.z * inverse;
+      const T drawn = shared * tilt;
+      r.weight = r.weight * facets.maskingOverCos(in.z) * ci / tilt;
+      r.pdf = drawn * co * relative2;
       r.pdfReverse = drawn * ci;
     }
     return r;

@@ -40,9 +40,32 @@ struct RoughPlastic {
     const FacetReflection<T> coat = facets.reflect(wi, wo);
     if (value(coat.pdf) > 0) {
       const T f = fresnelDielectric(coat.cosHalf, S(eta));
-      r.value = r.value + modulate<T>(*specular, uv, coat.value * f * S(specularScale));
+      r.value = r.value + modulate<T>(*specular, uv, coat.pdf * coat.weight * f * S(specularScale));
       r.pdf = r.pdf + coat.pdf * (S(1) - di);
       r.pdfReverse = r.pdfReverse + coat.pdfReverse * (S(1) - dd);
+    }
+    return r;
+  }
+  template <class T>
+  SampledBsdf<T> sampled(const Vec2<T>& uv, const Vec3<T>& wi, const Vec3<T>& wo) const {
+    using S = Scalar<T>;
+    if (!(value(wi.z) > 0 && value(wo.z) > 0)) return SampledBsdf<T>::zero();
+    const S invPi = kInvPiOf<T>;
+    const T ti = transmittance->evaluate(wi.z), to = transmittance->evaluate(wo.z);
+    const T di = diffuseProbability(ti), dd = diffuseProbability(to);
+    const T ds = S(1) - di, cosine = wo.z * invPi;
+    const T inner = ti * to * S(base.inverseEta2);
+    const FacetReflection<T> coat = facets.reflect(wi, wo);
+    SampledBsdf<T> r;
+    r.pdf = di * cosine + coat.pdf * ds;
+    if (!(value(r.pdf) > 0)) return SampledBsdf<T>::zero();
+    r.pdfReverse = dd * wi.z * invPi + coat.pdfReverse * (S(1) - dd);
+    const MixtureShares<T> shares(cosine, coat.pdf, di, ds);
+    r.weight = base.modulated<T>(uv, inner * shares.first);
+    if (value(coat.pdf) > 0) {
+      const T f = fresnelDielectric(coat.cosHalf, S(eta));
+      r.weight =
+          r.weight + modulate<T>(*specular, uv, coat.weight * f * shares.second * S(specularScale));
     }
     return r;
   }

@@ -93,6 +93,19 @@ class BilinearDistribution {
   template <class T>
   Point<T> at(const T& u, const T& v) const;
 
+  // What the density is bilinear between in a cell; along the cells at v = 0 and v = 1 it falls to 0 besides.
+  struct Densities {
+    double d00, d10, d01, d11;  // d[x][y]
+  };
+  Densities densities(const Cell& cell) const {
+    const Rows rows = rowsOf(cell.row);
+    const auto at = [&](std::size_t row, int column) {
+      return static_cast<double>(weight(row, column)) / total_;
+    };
+    return {at(rows.first, cell.column), at(rows.first, cell.column + 1),
+            at(rows.second, cell.column), at(rows.second, cell.column + 1)};
+  }
+
   // Coordinates (u0, u1) with which sample() gives (u, v).
   Vec2f invert(double u, double v) const;
 

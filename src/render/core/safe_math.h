@@ -58,17 +58,16 @@ T weighted2(const T& a, const P& s, const T& b, const P& t) {
     return linear2(a, s, b, t);
 }
 
-// The derivatives of a with another value: a more exact one.
-template <class T>
-Vec3<T> withValue(Vec3<T> a, const Vec3<Scalar<T>>& v) {
-  if constexpr (ad::isDual<T>) {
-    a.x.v = v.x;
-    a.y.v = v.y;
-    a.z.v = v.z;
-    return a;
-  } else {
-    return v;
+// The derivatives of a with another value: a more exact one. V: a vector.
+template <class V, class W>
+V withValue(V a, const W& v) {
+  for (int i = 0; i < V::length(); ++i) {
+    if constexpr (ad::isDual<typename V::value_type>)
+      a[i].v = v[i];
+    else
+      a[i] = v[i];
   }
+  return a;
 }
 
 }  // namespace h2mc

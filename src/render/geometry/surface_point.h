@@ -17,10 +17,11 @@ struct PrimitiveId {
 
 template <class T>
 struct SurfacePoint {
-  Vec3<T> p;         // world space
-  Vec3<T> ng;        // geometric normal, unit, on the shading normal's side
-  Frame<T> shading;  // shading frame, from the interpolated normal where the mesh has one
-  Vec2<T> uv;        // texture coordinates (barycentric ones where the mesh has none)
+  Vec3<T> p;          // world space
+  Vec3<T> ng;         // geometric normal, unit, on the shading normal's side
+  Frame<T> shading;   // shading frame, from the interpolated normal where the mesh has one
+  bool flat = false;  // shading.n is ng
+  Vec2<T> uv;         // texture coordinates (barycentric ones where the mesh has none)
 };
 
 }  // namespace h2mc

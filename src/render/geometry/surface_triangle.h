@@ -38,7 +38,7 @@ auto triangleOf(const View& mesh, std::uint32_t index) {
     const S scale2 = S(std::min(inverse / static_cast<double>(scale1), 1e30));
     const Vec3<P> scaled = cross(r.e1 * scale1, r.e2) * scale2;  // of length 1, by value
     const P shrink = ad::rsqrt(length2(scaled));
-    r.normal = withValue<P>(scaled * shrink, Vec3<S>(n * inverse));
+    r.normal = withValue(scaled * shrink, Vec3<S>(n * inverse));
     r.inverseArea2 = shrink * S(inverse);
   } else {
     r.normal = Vec3<S>(n * inverse);
@@ -62,9 +62,10 @@ void finishTrianglePoint(const View& mesh, std::uint32_t index, Vec3<typename Vi
   using P = typename View::P;
   using S = Scalar<T>;
   const glm::uvec3& t = mesh.triangle(index);
-  bool flat = true;
+  bool interpolated = false;
   Vec3<P> passive = normal;
-  if (mesh.hasNormals()) {
+  r.flat = !mesh.hasNormals();
+  if (!r.flat) {
     if (mesh.sameNormals(t)) {
       Vec3<P> n = mesh.normal(t.x);
       if (dot(value3(n), value3(n)) > S(0.5)) {
@@ -77,13 +78,13 @@ void finishTrianglePoint(const View& mesh, std::uint32_t index, Vec3<typename Vi
       const Vec3<T> n{weighted2(b1, d1.x, b2, d2.x) + a.x, weighted2(b1, d1.y, b2, d2.y) + a.y,
                       weighted2(b1, d1.z, b2, d2.z) + a.z};
       if (dot(value3(n), value3(n)) > S(1e-6)) {
-        flat = false;
+        interpolated = true;
         r.shading = Frame<T>::fromNormal(ad::normalize(n));
         if (dot(value3(normal), value3(r.shading.n)) < 0) normal = -normal;
       }
     }
   }
-  if (flat) {
+  if (!interpolated) {
     if (dot(value3(normal), value3(passive)) < 0) normal = -normal;
     const Frame<P> frame = Frame<P>::fromNormal(passive);
     r.shading = {liftFrom<T>(frame.s), liftFrom<T>(frame.t), liftFrom<T>(frame.n)};
@@ -108,7 +109,7 @@ SurfacePoint<T> trianglePoint(const View& mesh, std::uint32_t index, const T& b1
          weighted2(b1, triangle.e1.y, b2, triangle.e2.y),
          weighted2(b1, triangle.e1.z, b2, triangle.e2.z)};
   if constexpr (ad::isDual<typename View::P>) r.p = r.p + triangle.p0;
-  r.p = withValue<T>(r.p, pointOnTriangle(triangle, value(b1), value(b2)));
+  r.p = withValue(r.p, pointOnTriangle(triangle, value(b1), value(b2)));
   finishTrianglePoint<T>(mesh, index, triangle.normal, b1, b2, r);
   return r;
 }
@@ -136,7 +137,7 @@ SurfacePoint<T> intersectTriangle(const View& mesh, std::uint32_t index, const V
   SurfacePoint<T> r;
   r.p = p;
   if constexpr (ad::isDual<typename View::P>) r.p = r.p + triangle.p0;
-  r.p = withValue<T>(r.p, pointOnTriangle(triangle, value(b1), value(b2)));
+  r.p = withValue(r.p, pointOnTriangle(triangle, value(b1), value(b2)));
   finishTrianglePoint<T>(mesh, index, triangle.normal, b1, b2, r);
   return r;
 }
@@ -175,7 +176,7 @@ SurfacePoint<T> trianglePointAt(const View& mesh, std::uint32_t index, const Vec
   r.p = {weighted2(at.x, axes.x.x, at.y, axes.y.x), weighted2(at.x, axes.x.y, at.y, axes.y.y),
          weighted2(at.x, axes.x.z, at.y, axes.y.z)};
   if constexpr (ad::isDual<typename View::P>) r.p = r.p + triangle.p0;
-  r.p = withValue<T>(r.p, pointOnTriangle(triangle, value(b1), value(b2)));
+  r.p = withValue(r.p, pointOnTriangle(triangle, value(b1), value(b2)));
   finishTrianglePoint<T>(mesh, index, triangle.normal, b1, b2, r);
   return r;
 }

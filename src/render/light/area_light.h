@@ -98,7 +98,7 @@ DirectLight<T> AreaLight::sampleDirect(const LightContext& context, PrimitiveId 
   if (!(value(distance2) > std::numeric_limits<S>::min())) {
     r.direction = -point.ng;
     r.distance = r.directPdf = r.emissionPdf = T(S(0));
-    r.radiance = lift<T>(Vec3<S>(0));
+    r.arriving = lift<T>(Vec3<S>(0));
     r.cosLight = T(S(1));
     return r;
   }
@@ -110,14 +110,21 @@ DirectLight<T> AreaLight::sampleDirect(const LightContext& context, PrimitiveId 
   // Edge on: no density per solid angle. Held at a value that keeps quotients finite.
   if (value(r.cosLight) < S(1e-7)) r.cosLight = T(S(1e-7));
   r.directPdf = distance2 / (r.cosLight * S(area_));
-  if (cosine > 0) {
-    r.radiance = evaluate<T>(*radiance, point.uv);
-    r.emissionPdf = r.cosLight * S(kInvPi / area_);
+  T seen = r.cosLight * inverse * inverse * S(area_);
+  if (moving_) {
+    const T factor = densityFactor(context, primitive, *time);
+    r.directPdf = r.directPdf * factor;
+    seen = seen / factor;
+    r.emissionPdf = r.cosLight * factor * S(kInvPi / area_);
   } else {
-    r.radiance = lift<T>(Vec3<S>(0));
+    r.emissionPdf = r.cosLight * S(kInvPi / area_);
+  }
+  if (cosine > 0) {
+    r.arriving = modulate<T>(*radiance, point.uv, seen);
+  } else {
+    r.arriving = lift<T>(Vec3<S>(0));
     r.emissionPdf = T(S(0));
   }
-  if (moving_) scaleDensities(r, densityFactor(context, primitive, *time));
   return r;
 }
 
@@ -141,10 +148,15 @@ EmittedRay<T> AreaLight::sampleEmission(const LightContext& context, PrimitiveId
   r.origin = point.p;
   r.normal = point.ng;
   r.direction = aroundNormal<T>(point.ng, local);
-  r.power = modulate<T>(*radiance, point.uv, r.cosLight);
   r.emissionPdf = r.cosLight * S(kInvPi / area_);
   r.directPdf = T(S(1 / area_));
-  if (moving_) scaleDensities(r, densityFactor(context, primitive, *time));
+  T etendue = T(S(kPi * area_));
+  if (moving_) {
+    const T factor = densityFactor(context, primitive, *time);
+    scaleDensities(r, factor);
+    etendue = etendue / factor;
+  }
+  r.flux = modulate<T>(*radiance, point.uv, etendue);
   return r;
 }
 

@@ -22,7 +22,7 @@ struct ConstantLight {
     DirectLight<T> r;
     r.direction = detail::uniformSphere(u0, u1);
     r.distance = T(S(detail::beyond(context.bounds)));
-    r.radiance = detail::passiveColor<T>(radiance);
+    r.arriving = detail::passiveColor<T>(radiance * (4 * kPi));
     r.directPdf = T(S(kInvPi / 4));
     r.emissionPdf = T(S(kInvPi / 4) * detail::diskPdf<S>(context.bounds));
     r.cosLight = T(S(1));
@@ -38,7 +38,7 @@ struct ConstantLight {
     r.origin = detail::diskTowards(context.bounds, toLight, u0, u1);
     r.direction = -toLight;
     r.normal = lift<T>(Vec3<S>(0));
-    r.power = detail::passiveColor<T>(radiance);
+    r.flux = detail::passiveColor<T>(radiance * (4 * kPi / detail::diskPdf<float>(context.bounds)));
     r.directPdf = T(S(kInvPi / 4));
     r.emissionPdf = T(S(kInvPi / 4) * detail::diskPdf<S>(context.bounds));
     r.cosLight = T(S(1));

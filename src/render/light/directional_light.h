@@ -23,7 +23,7 @@ struct DirectionalLight {
     DirectLight<T> r;
     r.direction = lift<T>(-plain<T>(direction));
     r.distance = T(S(detail::beyond(context.bounds)));
-    r.radiance = detail::passiveColor<T>(irradiance);
+    r.arriving = detail::passiveColor<T>(irradiance);
     r.directPdf = r.cosLight = T(S(1));
     r.emissionPdf = T(detail::diskPdf<S>(context.bounds));
     return r;
@@ -37,7 +37,7 @@ struct DirectionalLight {
     r.origin = detail::passiveDiskTowards<T>(context.bounds, -plain<T>(direction), u0, u1);
     r.direction = lift<T>(plain<T>(direction));
     r.normal = lift<T>(Vec3<S>(0));
-    r.power = detail::passiveColor<T>(irradiance);
+    r.flux = detail::passiveColor<T>(irradiance / detail::diskPdf<float>(context.bounds));
     r.emissionPdf = T(detail::diskPdf<S>(context.bounds));
     r.directPdf = r.cosLight = T(S(1));
     return r;

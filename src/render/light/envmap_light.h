@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 
 #include "render/core/distribution.h"
@@ -29,7 +30,10 @@ class EnvmapLight {
                               const T& u1) const {
     using S = Scalar<T>;
     DirectLight<T> r;
-    sampleDirection<T>(u0, u1, r.direction, r.radiance, r.directPdf);
+    T sine;
+    const BilinearDistribution::Point<T> point = sampleDirection<T>(u0, u1, r.direction, sine);
+    r.directPdf = solidAnglePdf(point, sine);
+    r.arriving = perSolidAngle(point, sine);
     r.distance = T(S(detail::beyond(context.bounds)));
     r.emissionPdf = r.directPdf * detail::diskPdf<S>(context.bounds);
     r.cosLight = T(S(1));
@@ -42,7 +46,10 @@ class EnvmapLight {
     using S = Scalar<T>;
     EmittedRay<T> r;
     Vec3<T> toLight;
-    sampleDirection<T>(v0, v1, toLight, r.power, r.directPdf);
+    T sine;
+    const BilinearDistribution::Point<T> point = sampleDirection<T>(v0, v1, toLight, sine);
+    r.flux = perSolidAngle(point, sine) * (S(1) / detail::diskPdf<S>(context.bounds));
+    r.directPdf = solidAnglePdf(point, sine);
     r.origin = detail::diskTowards(context.bounds, toLight, u0, u1);
     r.direction = -toLight;
     r.normal = lift<T>(Vec3<S>(0));
@@ -72,11 +79,34 @@ class EnvmapLight {
     BilinearDistribution distribution;
   };
 
+  // The picture's four pixels around a point, in double: between which it is bilinear.
+  struct Corners {
+    Vec3<double> c00, c10, c01, c11;
+  };
+  Corners corners(const BilinearDistribution::Cell& cell) const;
   template <class T>
-  void sampleDirection(const T& u0, const T& u1, Vec3<T>& direction, Rgb<T>& radiance,
-                       T& pdf) const;
+  static Rgb<T> between(const Corners& c, const BilinearDistribution::Point<T>& point);
+
+  // `sine`: of the angle to the pole, towards which densities in directions and in (u, v) differ.
   template <class T>
-  Rgb<T> lookUp(const BilinearDistribution::Point<T>& point) const;
+  BilinearDistribution::Point<T> sampleDirection(const T& u0, const T& u1, Vec3<T>& direction,
+                                                 T& sine) const;
+  template <class T>
+  static T solidAnglePdf(const BilinearDistribution::Point<T>& point, const T& sine) {
+    using S = Scalar<T>;
+    return point.pdf * S(0.5 / (std::numbers::pi * std::numbers::pi)) / sine;
+  }
+  template <class T>
+  Rgb<T> lookUp(const BilinearDistribution::Point<T>& point) const {
+    return between<T>(corners(point.cell), point);
+  }
+  // Radiance over solidAnglePdf(point, sine), and over point.pdf.
+  template <class T>
+  Rgb<T> perSolidAngle(const BilinearDistribution::Point<T>& point, const T& sine) const {
+    return perDensity<T>(point) * T(sine * Scalar<T>(2 * std::numbers::pi * std::numbers::pi));
+  }
+  template <class T>
+  Rgb<T> perDensity(const BilinearDistribution::Point<T>& point) const;
   Vec2f invertDirection(const Vec3f& direction) const;
 
   std::shared_ptr<const Data> data_;  // lights are copied
@@ -84,41 +114,58 @@ class EnvmapLight {
   float fluxPerArea_ = 0;             // luminance of the radiance, integrated over all directions
 };
 
-// Bilinear between the corners of the point's cell.
-template <class T>
-Rgb<T> EnvmapLight::lookUp(const BilinearDistribution::Point<T>& point) const {
+inline EnvmapLight::Corners EnvmapLight::corners(const BilinearDistribution::Cell& cell) const {
   const Image& image = data_->image;
-  const int x0 = point.cell.column, x1 = x0 + 1 == image.width ? 0 : x0 + 1;
-  const int y0 = point.cell.row == 0 ? 0 : point.cell.row - 1;
-  const int y1 = point.cell.row == image.height ? image.height - 1 : point.cell.row;
-  const Rgb<Scalar<T>> c00 = plain<T>(image.at(x0, y0)), c10 = plain<T>(image.at(x1, y0));
-  if (y0 == y1) {
-    const Rgb<Scalar<T>> d = c10 - c00;
-    return {point.x * d.x + c00.x, point.x * d.y + c00.y, point.x * d.z + c00.z};
-  }
-  const Rgb<Scalar<T>> c01 = plain<T>(image.at(x0, y1)), c11 = plain<T>(image.at(x1, y1));
-  const Rgb<Scalar<T>> dx = c10 - c00, dy = c01 - c00, dxy = (c11 - c01) - dx;
+  const int x0 = cell.column, x1 = x0 + 1 == image.width ? 0 : x0 + 1;
+  const int y0 = cell.row == 0 ? 0 : cell.row - 1;
+  const int y1 = cell.row == image.height ? image.height - 1 : cell.row;
+  const auto pixel = [&](int x, int y) { return Vec3<double>(image.at(x, y)); };
+  return {pixel(x0, y0), pixel(x1, y0), pixel(x0, y1), pixel(x1, y1)};
+}
+
+template <class T>
+Rgb<T> EnvmapLight::between(const Corners& c, const BilinearDistribution::Point<T>& point) {
+  using S = Scalar<T>;
+  const Vec3<S> c00(c.c00), dx(c.c10 - c.c00), dy(c.c01 - c.c00),
+      dxy((c.c11 - c.c01) - (c.c10 - c.c00));
   const T xy = point.x * point.y;
   return {linear3(point.x, dx.x, point.y, dy.x, xy, dxy.x) + c00.x,
           linear3(point.x, dx.y, point.y, dy.y, xy, dxy.y) + c00.y,
           linear3(point.x, dx.z, point.y, dy.z, xy, dxy.z) + c00.z};
 }
 
+// A hue that all corners share, times the density's own factor, and what is left of the corners then.
 template <class T>
-void EnvmapLight::sampleDirection(const T& u0, const T& u1, Vec3<T>& direction, Rgb<T>& radiance,
-                                  T& pdf) const {
+Rgb<T> EnvmapLight::perDensity(const BilinearDistribution::Point<T>& point) const {
+  using S = Scalar<T>;
+  Corners c = corners(point.cell);
+  if (point.cell.row == 0 || point.cell.row == height())
+    return between<T>(c, point) * T(S(1) / point.pdf);
+  const BilinearDistribution::Densities d = data_->distribution.densities(point.cell);
+  const double largest = std::max({d.d00, d.d10, d.d01, d.d11});
+  const Vec3<double> hue = (largest == d.d00   ? c.c00
+                            : largest == d.d10 ? c.c10
+                            : largest == d.d01 ? c.c01
+                                               : c.c11) /
+                           largest;
+  c = {c.c00 - hue * d.d00, c.c10 - hue * d.d10, c.c01 - hue * d.d01, c.c11 - hue * d.d11};
+  return between<T>(c, point) * T(S(1) / point.pdf) + Vec3<S>(hue);
+}
+
+template <class T>
+BilinearDistribution::Point<T> EnvmapLight::sampleDirection(const T& u0, const T& u1,
+                                                            Vec3<T>& direction, T& sine) const {
   using S = Scalar<T>;
   const BilinearDistribution::Point<T> point = data_->distribution.template sample<T>(u0, u1);
-  radiance = lookUp<T>(point);
-  T sinTheta, cosTheta;
-  ad::sincos(T(point.v * S(std::numbers::pi)), sinTheta, cosTheta);
+  T cosine;
+  ad::sincos(T(point.v * S(std::numbers::pi)), sine, cosine);
   // A pole itself, by rounding.
-  if (value(sinTheta) < S(1e-7)) sinTheta = T(S(1e-7));
+  if (value(sine) < S(1e-7)) sine = T(S(1e-7));
   const Vec2<T> phi = detail::circle(point.u);
   // u turns from -z towards x; y is up.
-  direction = ad::combine(T(sinTheta * phi.y), plain<T>(toWorld_[0]), cosTheta,
-                          plain<T>(toWorld_[1]), T(-(sinTheta * phi.x)), plain<T>(toWorld_[2]));
-  pdf = point.pdf * S(0.5 / (std::numbers::pi * std::numbers::pi)) / sinTheta;
+  direction = ad::combine(T(sine * phi.y), plain<T>(toWorld_[0]), cosine, plain<T>(toWorld_[1]),
+                          T(-(sine * phi.x)), plain<T>(toWorld_[2]));
+  return point;
 }
 
 template <class T>
@@ -133,7 +180,7 @@ LightHit<T> EnvmapLight::hit(const LightContext& context, const SurfacePoint<T>&
   const BilinearDistribution::Point<T> point = data_->distribution.template at<T>(u, v);
   LightHit<T> r;
   r.radiance = lookUp<T>(point);
-  r.directPdf = point.pdf * S(0.5 / (std::numbers::pi * std::numbers::pi)) / sinTheta;
+  r.directPdf = solidAnglePdf(point, sinTheta);
   r.emissionPdf = r.directPdf * detail::diskPdf<S>(context.bounds);
   return r;
 }

@@ -89,7 +89,7 @@ LightHit<T> noHit() {
   return {lift<T>(Vec3<S>(0)), T(S(0)), T(S(0))};
 }
 
-// Light from a point; emit(r) sets radiance and emissionPdf, knowing the direction.
+// Light from a point; emit(r, 1 / distance^2) sets what arrives and emissionPdf, knowing the direction.
 template <class T, class Emit>
 DirectLight<T> directFromPoint(const Vec3f& position, const Vec3<T>& reference, Emit&& emit) {
   using S = Scalar<T>;
@@ -100,14 +100,14 @@ DirectLight<T> directFromPoint(const Vec3f& position, const Vec3<T>& reference, 
   r.cosLight = T(S(1));
   if (!(value(r.directPdf) > std::numeric_limits<S>::min())) {
     r.direction = lift<T>(Vec3<S>(0, 0, 1));
-    r.radiance = lift<T>(Vec3<S>(0));
+    r.arriving = lift<T>(Vec3<S>(0));
     r.distance = r.directPdf = r.emissionPdf = T(S(0));
     return r;
   }
   const T inverse = ad::rsqrt(r.directPdf);
   r.distance = r.directPdf * inverse;
   r.direction = offset * inverse;
-  emit(r);
+  emit(r, T(inverse * inverse));
   return r;
 }
 

@@ -31,9 +31,10 @@ template <class T>
 struct DirectLight {
   Vec3<T> direction;  // unit, from the reference point to the light
   T distance;         // to the light; a value beyond the scene for infinite lights
-  Rgb<T> radiance;    // radiance; intensity for point and spot, irradiance for directional lights
-  T directPdf;    // per solid angle at the reference point; distance^2 for point and spot lights,
-                  // 1 for directional ones, so that radiance / directPdf is what arrives
+  // What arrives: radiance / directPdf, in closed form. What both have in common is not left to rounding.
+  Rgb<T> arriving;
+  T directPdf;    // per solid angle at the reference point; distance^2 for point and spot lights, 1
+                  // for directional ones, whose radiance here is their intensity or irradiance
   T emissionPdf;  // with which sampleEmission makes this ray: per area and solid angle; for a point
                   // light per solid angle, for a directional one per area
   T cosLight;     // |cos| between the light's geometric normal and the ray; 1 without a surface
@@ -48,8 +49,9 @@ struct EmittedRay {
   Vec3<T> origin;
   Vec3<T> direction;  // unit
   Vec3<T> normal;     // of the emitting surface, for offsetting the ray; zero without a surface
-  Rgb<T> power;   // radiance (intensity, irradiance) times cosLight: what divided by emissionPdf is
-                  // the flux that the ray carries
+  Rgb<T>
+      flux;  // that the ray carries: radiance (intensity, irradiance) times cosLight / emissionPdf, in
+             // closed form
   T emissionPdf;  // as above
   T directPdf;    // of the origin as a direct sample: per area for area lights (1 / area), per
                   // solid angle for infinite ones, 1 for delta lights

@@ -17,8 +17,9 @@ struct PointLight {
   template <class T>
   DirectLight<T> sampleDirect(const LightContext&, PrimitiveId, const Vec3<T>& reference, const T&,
                               const T&) const {
-    return detail::directFromPoint<T>(position, reference, [&](DirectLight<T>& r) {
-      r.radiance = detail::passiveColor<T>(intensity);
+    return detail::directFromPoint<T>(position, reference, [&](DirectLight<T>& r, const T& spread) {
+      const Vec3<Scalar<T>> color = plain<T>(intensity);
+      r.arriving = {spread * color.x, spread * color.y, spread * color.z};
       r.emissionPdf = T(Scalar<T>(kInvPi / 4));
     });
   }
@@ -31,7 +32,7 @@ struct PointLight {
     r.origin = lift<T>(plain<T>(position));
     r.normal = lift<T>(Vec3<S>(0));
     r.direction = detail::uniformSphere(v0, v1);
-    r.power = detail::passiveColor<T>(intensity);
+    r.flux = detail::passiveColor<T>(intensity * (4 * kPi));
     r.emissionPdf = T(S(kInvPi / 4));
     r.directPdf = r.cosLight = T(S(1));
     return r;

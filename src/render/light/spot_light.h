@@ -21,14 +21,15 @@ class SpotLight {
   template <class T>
   DirectLight<T> sampleDirect(const LightContext&, PrimitiveId, const Vec3<T>& reference, const T&,
                               const T&) const {
-    return detail::directFromPoint<T>(position_, reference, [&](DirectLight<T>& r) {
-      using S = Scalar<T>;
-      const T fade = falloff<T>(Vec3<T>(-r.direction));
-      const Vec3<S> color = plain<T>(intensity_);
-      r.radiance = {fade * color.x, fade * color.y, fade * color.z};
-      r.emissionPdf =
-          T(dot(value3(r.direction), plain<T>(axis_)) < -S(cosCutoff_) ? S(conePdf_) : S(0));
-    });
+    return detail::directFromPoint<T>(
+        position_, reference, [&](DirectLight<T>& r, const T& spread) {
+          using S = Scalar<T>;
+          const T fade = falloff<T>(Vec3<T>(-r.direction)) * spread;
+          const Vec3<S> color = plain<T>(intensity_);
+          r.arriving = {fade * color.x, fade * color.y, fade * color.z};
+          r.emissionPdf =
+              T(dot(value3(r.direction), plain<T>(axis_)) < -S(cosCutoff_) ? S(conePdf_) : S(0));
+        });
   }
 
   template <class T>
@@ -45,9 +46,9 @@ class SpotLight {
     r.normal = lift<T>(Vec3<S>(0));
     r.direction =
         ad::combine(T(sine * c.x), frame.s, T(sine * c.y), frame.t, T(S(1) - height), frame.n);
-    const T fade = falloff<T>(r.direction);
+    const T fade = falloff<T>(r.direction) * S(1 / conePdf_);
     const Vec3<S> color = plain<T>(intensity_);
-    r.power = {fade * color.x, fade * color.y, fade * color.z};
+    r.flux = {fade * color.x, fade * color.y, fade * color.z};
     r.emissionPdf = T(S(conePdf_));
     r.directPdf = r.cosLight = T(S(1));
     return r;

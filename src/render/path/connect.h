@@ -141,7 +141,7 @@ Link<T> linkToLight(const Scene& scene, const Arrival<T>& vertex, PrimitiveId id
             evaluateMaterial<T>(scene.bsdfs, materialAt(scene, id), vertex.point.uv, vertex.wi, wo);
         const Scalar<T> pick = scene.directPicker.probability(light);
         const T inverse = T(1) / (direct.directPdf * pick);
-        Link<T> link(direct.radiance * e.value * inverse);
+        Link<T> link(direct.arriving * e.value * (Scalar<T>(1) / pick));
         if (link.zero()) return link;
         if (!l.isDelta()) link.direct = e.pdf * inverse;
         if (techniques == Techniques::kBidirectional) {

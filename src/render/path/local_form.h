@@ -99,9 +99,11 @@ class LocalForm {
   const Path& path_;
   ad::Composition<S>& composition_;
   Subpath camera_, light_;
-  // Logs of the factors that make a channel of the contribution; `dark` if one of them is zero.
+  // The factors that make a channel of the contribution: the product of constant ones, logs of the others;
+  // `dark` if one of them is zero.
   struct Channel {
     bool dark = false;
+    double scale = 1;
     int count = 0;
     Variable logs[kMaxPathLength + 2];
   };

@@ -92,7 +92,10 @@ auto LocalForm<S, kMoving>::arrival(const Step<M>& step, int first, const Subpat
       pointOnPrimitive<D>(scene_.shapes, vertex.id, vertex.vertex.point.p,
                           Vec2<D>(step.x(first), step.x(first + 1)), step.time());
   // Exactly where it was traced: coordinates on large surfaces are less precise than points.
-  if constexpr (std::is_same_v<S, float>) point.p = withValue<D>(point.p, vertex.vertex.point.p);
+  if constexpr (std::is_same_v<S, float>) {
+    point.p = withValue(point.p, vertex.vertex.point.p);
+    point.uv = withValue(point.uv, vertex.vertex.point.uv);
+  }
   return arrivalAt<D>(point,
                       subpath.chart.direction(Vec2<D>(step.x(first + 2), step.x(first + 3))));
 }
@@ -104,7 +107,13 @@ bool same(const D& a, const D& b) {
          std::memcmp(a.h, b.h, sizeof a.h) == 0;
 }
 
-// Channels with the same factor share an output.
+template <class D>
+bool isConstant(const D& a) {
+  constexpr D zero{};
+  return std::memcmp(a.g, zero.g, sizeof a.g) == 0 && std::memcmp(a.h, zero.h, sizeof a.h) == 0;
+}
+
+// Channels with the same factor share an output; a constant needs none.
 template <class S, bool kMoving>
 template <int M>
 void LocalForm<S, kMoving>::logFactor(Step<M>& step, const Rgb<typename Step<M>::D>& factor,
@@ -112,6 +121,11 @@ void LocalForm<S, kMoving>::logFactor(Step<M>& step, const Rgb<typename Step<M>:
   for (int c = 0; c < 3; ++c) {
     outputs[c] = kNone;
     if (channels_[c].dark) continue;
+    if (isConstant(factor[c])) {
+      channels_[c].scale *= static_cast<double>(value(factor[c]));
+      channels_[c].dark = !(value(factor[c]) > 0);
+      continue;
+    }
     if (c > 0 && outputs[c - 1] != kNone && same(factor[c], factor[c - 1]))
       outputs[c] = outputs[c - 1];
     else
@@ -124,7 +138,7 @@ template <class S, bool kMoving>
 template <int M>
 void LocalForm<S, kMoving>::multiply(const Step<M>& step, const int (&outputs)[3]) {
   for (int c = 0; c < 3; ++c)
-    if (Channel& channel = channels_[c]; !channel.dark)
+    if (Channel& channel = channels_[c]; !channel.dark && outputs[c] != kNone)
       channel.logs[channel.count++] = step.variable(outputs[c]);
 }
 
@@ -336,13 +350,14 @@ auto LocalForm<S, kMoving>::finish() -> Variable {
   for (int c = 0; c < 3; ++c) {
     const Channel& channel = channels_[c];
     if (channel.dark || taken[c]) continue;
-    double weight = kLuminance[c];
+    double weight = kLuminance[c] * channel.scale;
     for (int d = c + 1; d < 3; ++d) {
       if (channels_[d].dark || taken[d] ||
-          !std::equal(channel.logs, channel.logs + channel.count, channels_[d].logs))
+          !std::equal(channel.logs, channel.logs + channel.count, channels_[d].logs,
+                      channels_[d].logs + channels_[d].count))
         continue;
       taken[d] = true;
-      weight += kLuminance[d];
+      weight += kLuminance[d] * channels_[d].scale;
     }
     typename ad::Composition<S>::Term factors[kMaxPathLength + 3];
     for (int i = 0; i < channel.count; ++i) factors[i] = {channel.logs[i], S(1)};

@@ -118,7 +118,7 @@ PathRay<T> startLight(const Scene& scene, int light, PrimitiveId primitive, cons
         if constexpr (std::is_same_v<S, double>) ray.direction = normalize(ray.direction);
         ray.originNormal = value3(e.normal);
         const T inverse = T(1) / (e.emissionPdf * pick);
-        ray.throughput = e.power * inverse;
+        ray.throughput = e.flux * (S(1) / pick);
         ray.vcm = e.directPdf * (direct / pick) / e.emissionPdf;
         ray.vc = l.isDelta() ? T(0) : e.cosLight * inverse;
         ray.fromInfinity = l.isInfinite();
@@ -127,10 +127,16 @@ PathRay<T> startLight(const Scene& scene, int light, PrimitiveId primitive, cons
       scene.lights[static_cast<std::size_t>(light)]);
 }
 
+// |cos| with the geometric normal of a direction: `local` in the shading frame, `world` in the world.
+template <class T>
+T geometricCosine(const SurfacePoint<T>& point, const Vec3<T>& local, const Vec3<T>& world) {
+  return point.flat ? abs(local.z) : abs(dot(point.ng, world));
+}
+
 template <class T>
 Arrival<T> arrivalAt(const SurfacePoint<T>& point, const Vec3<T>& direction) {
-  const Vec3<T> back = -direction;
-  return {point, point.shading.toLocal(back), abs(dot(point.ng, back))};
+  const Vec3<T> back = -direction, wi = point.shading.toLocal(back);
+  return {point, wi, geometricCosine(point, wi, back)};
 }
 
 // Arrives at a point that the ray is known to hit.
@@ -150,6 +156,15 @@ PathVertex<T> arriveAt(const Scene& scene, const PathRay<T>& ray, PrimitiveId id
   return arriveAtPoint(ray, intersectPrimitive(scene.shapes, id, ray.origin, ray.direction, time));
 }
 
+// What light is multiplied by that is scattered to the local direction wo, at |cos| cosOut with the
+// geometric normal: shading normals make scattering non-symmetric [Veach 1997, section 5.3].
+template <class T>
+Rgb<T> asImportance(const Arrival<T>& vertex, const Vec3<T>& wo, const T& cosOut,
+                    const Rgb<T>& weight) {
+  if (vertex.point.flat) return weight;
+  return weight * T(abs(vertex.wi.z) * cosOut / (vertex.cosIn * abs(wo.z)));
+}
+
 // Scattering in the local direction `wo`, drawn with the density that the material has for it, all of
 // its lobes but delta ones together.
 template <class T>
@@ -159,30 +174,19 @@ Scattering<T> scatteringTowards(const Scene& scene, const Arrival<T>& vertex, Pr
   const Vec2<T>& uv = vertex.point.uv;
   Scattering<T> s;
   s.direction = vertex.point.shading.toWorld(wo);
-  const T cosOut = abs(dot(vertex.point.ng, s.direction));
-  T pdf, factor;
-  Rgb<T> scattered;
-  if (side == Side::kCamera) {
-    const BsdfValue<T> e = evaluateMaterial<T>(scene.bsdfs, material, uv, vertex.wi, wo);
-    pdf = e.pdf;
-    s.reverse = e.pdfReverse;
-    factor = T(1) / pdf;
-    scattered = e.value;
-  } else {
-    const BsdfValue<T> e = evaluateMaterial<T>(scene.bsdfs, material, uv, wo, vertex.wi);
-    pdf = e.pdfReverse;
-    s.reverse = e.pdf;
-    factor = cosOut / (vertex.cosIn * pdf);
-    scattered = e.value;
-  }
-  if (!(value(pdf) > 0)) {
+  const T cosOut = geometricCosine(vertex.point, wo, s.direction);
+  const SampledBsdf<T> e = sampledMaterial<T>(scene.bsdfs, material, uv, vertex.wi, wo);
+  if (!(value(e.pdf) > 0)) {
     s.factor = Rgb<T>(T(0));
     s.vcm = s.vc = s.reverse = T(0);
     return s;
   }
-  s.factor = scattered * factor;
-  s.vcm = T(1) / pdf;
+  s.factor = e.weight;
+  if (side == Side::kLight)
+    s.factor = asImportance(vertex, wo, cosOut, Rgb<T>(s.factor * e.importance));
+  s.vcm = T(1) / e.pdf;
   s.vc = cosOut * s.vcm;
+  s.reverse = e.pdfReverse;
   return s;
 }
 
@@ -195,15 +199,9 @@ Scattering<T> scatteringDelta(const Scene& scene, const Arrival<T>& vertex, Prim
   Scattering<T> s;
   s.delta = true;
   s.direction = vertex.point.shading.toWorld(sample.wo);
-  const T cosOut = abs(dot(vertex.point.ng, s.direction));
-  const T inverse = T(1) / sample.probability;
-  if (side == Side::kCamera) {
-    s.factor = sample.radiance * inverse;
-  } else {
-    // Shading normals make scattering non-symmetric [Veach 1997, section 5.3].
-    const T correction = abs(vertex.wi.z) * cosOut / (vertex.cosIn * abs(sample.wo.z));
-    s.factor = sample.importance * (inverse * correction);
-  }
+  const T cosOut = geometricCosine(vertex.point, sample.wo, s.direction);
+  s.factor = side == Side::kCamera ? sample.radiance
+                                   : asImportance(vertex, sample.wo, cosOut, sample.importance);
   s.vcm = s.reverse = T(0);
   s.vc = cosOut;
   return s;
