@@ -37,6 +37,7 @@ struct Plastic {
     const S invPi = kInvPiOf<T>;
     const T to = transmitDielectric(wo.z, S(eta));
     const T probability = diffuseProbability(wi.z);
+    if (!(value(probability) > 0)) return SampledBsdf<T>::zero();
     // The share that the coat lets in, over `probability`.
     const T entering = ofOne(wi.z, [n = S(eta), ws = S(specularWeight)](const auto& c) {
       using U = std::remove_cvref_t<decltype(c)>;

@@ -149,7 +149,9 @@ Rgb<T> EnvmapLight::perDensity(const BilinearDistribution::Point<T>& point) cons
                                                : c.c11) /
                            largest;
   c = {c.c00 - hue * d.d00, c.c10 - hue * d.d10, c.c01 - hue * d.d01, c.c11 - hue * d.d11};
-  return between<T>(c, point) * T(S(1) / point.pdf) + Vec3<S>(hue);
+  const Rgb<T> r = between<T>(c, point) * T(S(1) / point.pdf) + Vec3<S>(hue);
+  // Beside black pixels rounding may leave less than nothing.
+  return {ad::max(r.x, S(0)), ad::max(r.y, S(0)), ad::max(r.z, S(0))};
 }
 
 template <class T>
