@@ -19,7 +19,7 @@ constexpr auto kParameters = withShared(std::array{
               "longest drift of a proposal along an eigenvector, in its standard deviations"},
 });
 
-// Of a Hamiltonian step, in isotropic ones: 2.3 to 3.3 by the benchmark, where the derivatives at the
+// Of a Hamiltonian step, in isotropic ones: 2.5 to 4 by the benchmark, where the derivatives at the
 // present state are there already; after a step of another kind they are not.
 constexpr double kHamiltonianCost = 4;
 

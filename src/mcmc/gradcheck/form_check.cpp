@@ -11,9 +11,12 @@ namespace {
 
 // Neighbouring paths that tell rounding from mistakes, and how far they lie away: this share of the
 // length on which the target varies, but some units of the coordinates' last place.
-constexpr int kNeighbours = 16, kNearer = 32;
+constexpr int kNeighbours = 16;
 constexpr double kDistance = 0x1p-6, kShortest = 0x1p-22;
-constexpr double kMostMagnified = 0x1p6;
+// Nearer ones, that tell what a few of these units make of a derivative; a unit, of a coordinate near 1;
+// and how many times kShortest they may lie away where float's points are coarse.
+constexpr int kNearer = 32;
+constexpr double kUnit = 0x1p-24, kMostMagnified = 0x1p6;
 // How much more than the value's a derivative's relative error may be, when both are rounding.
 constexpr double kMagnified = 10;
 // Where the target traced in float is off by so much, its path and the one in double have parted.
@@ -135,6 +138,51 @@ bool neighbour(const Scene& scene, const std::vector<double>& reach,
   return there.finite();
 }
 
+// What a form's errors are on neighbours some way off, kNeighbours of them at most.
+struct Neighbourhood {
+  explicit Neighbourhood(std::size_t n) : value(1), gradient(n), hessian(n * (n + 1) / 2) {}
+  Scatter value;  // of the target as it is traced in float
+  Scatter gradient, hessian;
+  int count = 0;
+
+  bool enough() const { return count >= kNeighbours / 2; }
+  double valueError() const { return std::sqrt(value.squares[0] / std::max(count, 1)); }
+};
+Neighbourhood neighbourhoodOf(const Scene& scene, const Path& path,
+                              const ad::DerivativeValues& exact, const DerivativeForm& form,
+                              const GradcheckSettings& settings, Random& random) {
+  std::vector<double> reach = ad::coordinateScales(exact);
+  for (double& r : reach) r = std::max(kShortest, kDistance / r);
+  Neighbourhood result(reach.size());
+  for (int k = 0; k < kNeighbours; ++k) {
+    Path near = path;
+    ad::DerivativeValues there, inFloat;
+    if (!neighbour(scene, reach, settings, random, near, there)) continue;
+    if (!form.differentiate(scene, near, inFloat) || !inFloat.finite()) continue;
+    ++result.count;
+    result.value.add({std::log(double(near.target))}, {there.value});
+    result.gradient.add(inFloat.gradient, there.gradient);
+    result.hessian.add(inFloat.hessian, there.hessian);
+  }
+  return result;
+}
+
+// Of paths that float can't tell from this one: from one unit of the last place of coordinates near 1 on.
+Spread spreadAround(const Scene& scene, const Path& path, const ad::DerivativeValues& exact,
+                    const GradcheckSettings& settings, Random& random) {
+  const double furthest = kShortest * magnification(scene, path);
+  Spread result;
+  for (int k = 0; k < kNearer; ++k) {
+    const double reach = kUnit * std::pow(furthest / kUnit, double(k) / (kNearer - 1));
+    Path near = path;
+    ad::DerivativeValues there;
+    if (neighbour(scene, std::vector<double>(exact.gradient.size(), reach), settings, random, near,
+                  there))
+      result.add(there, exact);
+  }
+  return result;
+}
+
 }  // namespace
 
 FormCheck formErrors(const ad::DerivativeValues& found, const ad::DerivativeValues& exact) {
@@ -170,49 +218,23 @@ FormCheck checkForm(const Scene& scene, const Path& path, const ad::DerivativeVa
     return result;
   }
 
-  const std::vector<double> scales = ad::coordinateScales(exact);
-  std::vector<double> reach(scales.size());
-  for (std::size_t i = 0; i < reach.size(); ++i)
-    reach[i] = std::max(kShortest, kDistance / scales[i]);
-  Scatter value(1), gradient(exact.gradient.size()), hessian(exact.hessian.size());
-  Spread spread;
   Random random(settings.seed, kStream, 0);
-  int count = 0;
-  for (int k = 0; k < kNeighbours; ++k) {
-    Path near = path;
-    ad::DerivativeValues there, inFloat;
-    if (!neighbour(scene, reach, settings, random, near, there)) continue;
-    if (!form.differentiate(scene, near, inFloat) || !inFloat.finite()) continue;
-    ++count;
-    value.add({std::log(double(near.target))}, {there.value});
-    gradient.add(inFloat.gradient, there.gradient);
-    hessian.add(inFloat.hessian, there.hessian);
-  }
-  const double magnified = magnification(scene, path);
-  // From one unit of the last place of coordinates near 1 on.
-  for (int k = 0; k < kNearer; ++k) {
-    std::fill(reach.begin(), reach.end(),
-              0x1p-24 * std::pow(4 * magnified, double(k) / (kNearer - 1)));
-    Path near = path;
-    ad::DerivativeValues there;
-    if (neighbour(scene, reach, settings, random, near, there)) spread.add(there, exact);
-  }
+  const Neighbourhood around = neighbourhoodOf(scene, path, exact, form, settings, random);
+  const Spread spread = spreadAround(scene, path, exact, settings, random);
   // By how much the target is off as it is traced in float: no business of the derivative's.
   const double off = std::abs(std::log(double(path.target)) - exact.value);
   const double own = tolerance + kMagnified * std::max(off, double(result.value));
-  const double allowed =
-      tolerance + kMagnified * std::max(off, std::sqrt(value.squares[0] / std::max(count, 1)));
-  const bool many = count >= kNeighbours / 2;
+  const double allowed = tolerance + kMagnified * std::max(off, around.valueError());
   const auto explained = [&](double error, double furthest, const Scatter& scatter, double scale,
                              bool triangle) {
     return error <= own || error <= tolerance + furthest / scale ||
-           (many && isRounding(scatter, count, allowed * scale, triangle));
+           (around.enough() && isRounding(scatter, around.count, allowed * scale, triangle));
   };
   const bool rounding =
       path.target < kSmallestTarget || off > kAnotherPath ||
       ((valueRight || result.value <= tolerance + spread.value) &&
-       explained(result.gradient, spread.gradient, gradient, gradientScale, false) &&
-       explained(result.hessian, spread.hessian, hessian, hessianScale, true));
+       explained(result.gradient, spread.gradient, around.gradient, gradientScale, false) &&
+       explained(result.hessian, spread.hessian, around.hessian, hessianScale, true));
   result.verdict = rounding ? FormVerdict::kRounding : FormVerdict::kWrong;
   return result;
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# tests/bench/compare/run.sh [OUTPUT FOLDER] [H2MC COMPARE OPTIONS...]: the project's standing comparison, three
+# tests/bench/compare/run.sh [OUTPUT FOLDER] [H2MC COMPARE OPTIONS...]: the project's standing comparison, less than two
 # minutes a scene. Every scene of the repository against its own reference, at the reference's size; each integrator
 # with the scenes' own options. Interrupted, the same command goes on. Options that are given replace these, as in
 #   run.sh results --time 5,10,20,40 --reference auto
@@ -22,6 +22,6 @@ option() { # unless it is given
 arguments=$*
 option -i --integrators path,bdpt,mmlt,h2mc
 option -k --repeats 3
-option -t --time 2,4,8,16
+option -t --time 2,4,8
 option -r --reference "$root/scenes/{scene}/reference.exr"
 exec "$root/scripts/run.sh" compare "${scenes[@]}" "${options[@]}" -o "$output" "$@"
