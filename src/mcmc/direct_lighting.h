@@ -1,12 +1,16 @@
 // The shortest paths by path tracing, beside the chains: a Metropolis chain is wasted on them.
 #pragma once
 
+#include <array>
+
+#include "mcmc/noise.h"
 #include "render/integrator/integrator.h"
 #include "render/scene/option_set.h"
 
 namespace h2mc {
 
-// Paths of one and two edges, in parts: each makes it less noisy.
+// Paths of one and two edges, in parts: each makes it less noisy. First as much of it as every render
+// can use, then, when the chains know their own noise, as much as makes the whole picture's least.
 class DirectLighting {
  public:
   static constexpr int kLongest = 2;  // in edges
@@ -17,27 +21,57 @@ class DirectLighting {
 
   // Whether it is split off from the chains at all.
   bool wanted() const { return wanted_ != 0 && minDepth_ <= kLongest; }
-  bool interrupted() const { return result_.interrupted; }
-  const Image& image() const { return result_.image; }
+  bool interrupted() const;
+  // In the file's units.
+  Image image() const;
 
-  // Brings it up to what a render of so many seconds, or of so many mutations a pixel, gets. Both
-  // may only grow from call to call.
+  // Brings it up to the least that a render of so many seconds, or of so many mutations a pixel,
+  // gets. Both may only grow from call to call.
   void extendTo(double renderSeconds, long long mutationsPerPixel);
+
+  // Measures its noise and that of the chains, whose picture is in the scene's units and is known by
+  // cells of cell x cell pixels, both relative to the whole picture.
+  void measure(const TwoEstimates& chains, int cell);
+  // Where a render stands.
+  struct Standing {
+    double mutations = 0;     // a pixel, so far
+    double chainSeconds = 0;  // of them
+    double seconds = 0;       // of everything
+    double endSeconds = 0;  // of the render, or of its part up to the next mark; 0: by endMutations
+    double endMutations = 0;  // a pixel
+    double growth = 1;        // there will be another call before so many times the mutations
+  };
+  // Brings it up to what makes the variance of the whole picture least, by what was measured, when the
+  // render is over or when it has `growth` times the mutations. A number given by the option
+  // directSamples stays. By what samples and mutations have cost where the budget is a time, else at
+  // a fixed price, so that the picture does not depend on the clock.
+  void balance(const Standing& now);
+  // Wall seconds so far.
+  double seconds() const { return halves_[0].wallSeconds + halves_[1].wallSeconds; }
 
   // Adds image, mean luminance and statistics to those of the longer paths, whose image may be
   // empty.
   void addTo(RenderResult& result) const;
 
  private:
-  void merge(const RenderResult& part);
+  // By a budget in seconds or in samples a pixel, half of it in each half.
+  void add(const RenderBudget& budget);
+  RenderResult result() const;
+  long long perPixel(int half) const;
+  long long perPixel() const;
 
   const Scene& scene_;
   const RenderRequest& request_;
   int wanted_, minDepth_;
-  double seconds_ = 0;       // of renders so far
-  long long perPixel_ = 0;   // samples so far
-  std::uint64_t parts_ = 0;  // a seed each
-  RenderResult result_;
+  double renderSeconds_ = 0;                // of renders so far
+  double perSample_ = 0, perMutation_ = 0;  // measured variances
+  std::uint64_t parts_ = 0;                 // a seed each
+  std::array<RenderResult, 2> halves_;      // independent of each other
 };
+
+// The number of samples for each mutation that makes perSample / samples + perMutation / mutations
+// least at a given cost of both, costs in the same unit; samples get no more than four fifths of it.
+double samplesAMutation(double perSample, double sampleCost, double perMutation,
+                        double mutationCost);
 
 }  // namespace h2mc

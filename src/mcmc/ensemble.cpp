@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint64_t kStartStream = 0x73746172, kChainStream = 0x636861696e,
                         kResampleStream = 0x7265736d;
-// The first epoch's mutations a pixel, and how many times longer an epoch ends than the one before.
-constexpr double kFirstEpoch = 4, kEpochFactor = 4;
+// The first epoch's mutations a pixel.
+constexpr double kFirstEpoch = 4;
 // So many mutations make a cell of the importance map.
 constexpr double kMutationsPerCell = 256;
 
@@ -54,8 +54,13 @@ ChainEnsemble::ChainEnsemble(const Scene& scene, const MetropolisMethod& method,
     KernelMixture kernels = makeKernels(method, target_, techniques_, options, minLength);
     kernels.brightness = bootstrap.luminance().mean();
     const int kinds = kernels.kinds();
-    groups_.push_back(
-        {ChainFilms(scene.film), std::move(kernels), ChainStatistics(kinds, maxLength), {}, {}});
+    groups_.push_back({ChainFilms(scene.film),
+                       std::move(kernels),
+                       ChainStatistics(kinds, maxLength),
+                       {},
+                       {},
+                       0,
+                       0});
   }
   parallelFor(threads_, groups, [&](int g) {
     Path start(maxLength_);
@@ -75,12 +80,23 @@ void ChainEnsemble::run(int index, long long steps) {
       chain->step(group.kernels, group.films, group.statistics, group.context);
 }
 
-bool ChainEnsemble::epochIsOver() const {
+double ChainEnsemble::perPixel(double mutations) const {
+  return mutations / (static_cast<double>(scene_.film.width) * scene_.film.height);
+}
+
+double ChainEnsemble::mutationsPerPixel() const {
   long long mutations = 0;
   for (const Group& group : groups_) mutations += group.statistics.mutations;
-  const double pixels = static_cast<double>(scene_.film.width) * scene_.film.height;
-  return static_cast<double>(mutations) >=
-         kFirstEpoch * std::pow(kEpochFactor, epoch_.number) * pixels;
+  return perPixel(static_cast<double>(mutations));
+}
+
+int ChainEnsemble::cell() const {
+  return std::max(
+      1, static_cast<int>(std::lround(std::sqrt(kMutationsPerCell / mutationsPerPixel()))));
+}
+
+bool ChainEnsemble::epochIsOver() const {
+  return mutationsPerPixel() >= kFirstEpoch * std::pow(kGrowth, epoch_);
 }
 
 void ChainEnsemble::Accumulated::add(const Image& states, double statesLuminance,
@@ -116,16 +132,18 @@ ChainStatistics ChainEnsemble::statistics() const {
   return total;
 }
 
-void ChainEnsemble::addEpoch(Accumulated& accumulated, const ChainStatistics& total) const {
+void ChainEnsemble::addEpoch(Accumulated& accumulated, std::size_t first, std::size_t step) const {
   ChainFilms films(scene_.film);
-  for (const Group& group : groups_) {
+  double mutations = 0, largeSteps = 0;
+  for (std::size_t g = first; g < groups_.size(); g += step) {
+    const Group& group = groups_[g];
     films.states.merge(group.films.states);
     films.samples.merge(group.films.samples);
     for (const auto& chain : group.chains) chain->splatPending(group.kernels, films.states);
+    mutations += static_cast<double>(group.statistics.mutations - group.mutationsBefore);
+    largeSteps += static_cast<double>(group.statistics.largeSteps.count - group.largeStepsBefore);
   }
   if (!(films.states.luminance > 0)) return;
-  const auto mutations = static_cast<double>(total.mutations - epoch_.mutations);
-  const auto largeSteps = static_cast<double>(total.largeSteps.count - epoch_.largeSteps);
   const double ofSamples = largeSteps > 0 ? 1 / largeSteps : 0;
   accumulated.add(films.states.film.develop(1 / mutations), films.states.luminance / mutations,
                   films.samples.film.develop(ofSamples), films.samples.luminance * ofSamples,
@@ -140,38 +158,52 @@ ChainEnsemble::Luminance ChainEnsemble::luminance(const ChainStatistics& total) 
           std::hypot(n0 * first.standardError(), n1 * second.standardError()) / (n0 + n1)};
 }
 
-void ChainEnsemble::nextEpoch(const Image* direct) {
+TwoEstimates ChainEnsemble::halves() const {
+  const double brightness = luminance(statistics()).mean;
+  TwoEstimates result;
+  const auto half = [&](std::size_t first, Image& image, double& samples) {
+    Accumulated own;
+    addEpoch(own, first, 2);
+    if (!(own.mutations > 0)) return;
+    image = own.image(scene_.film, brightness);
+    samples = perPixel(own.mutations);
+  };
+  half(0, result.a, result.samplesA);
+  half(1, result.b, result.samplesB);
+  return result;
+}
+
+ImportanceMap ChainEnsemble::useful(const Image* direct) const {
+  Accumulated all = past_;
+  addEpoch(all, 0, 1);
+  const Image sampled = all.image(scene_.film, luminance(statistics()).mean);
+  Image picture = sampled;
+  if (direct)
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) picture.pixels[i] += direct->pixels[i];
+  return ImportanceMap(picture, sampled, cell());
+}
+
+void ChainEnsemble::nextEpoch(const ImportanceMap& next) {
   for (Group& group : groups_)
     for (const auto& chain : group.chains) chain->flush(group.kernels, group.films.states);
-  const ChainStatistics total = statistics();
-  addEpoch(past_, total);
-  epoch_ = {epoch_.number + 1, total.mutations, total.largeSteps.count};
+  addEpoch(past_, 0, 1);
+  ++epoch_;
 
+  const ChainStatistics total = statistics();
   const double brightness = luminance(total).mean;
-  const ImportanceMap next = useMap_ ? nextMap(brightness, total.mutations, direct) : importance_;
-  const std::vector<Path> starts = resampled(next);
-  importance_ = next;
+  const ImportanceMap map = useMap_ ? next : importance_;
+  const std::vector<Path> starts = resampled(map);
+  importance_ = map;
   parallelFor(threads_, groups(), [&](int g) {
     Group& group = groups_[static_cast<std::size_t>(g)];
     group.films.clear();
+    group.mutationsBefore = group.statistics.mutations;
+    group.largeStepsBefore = group.statistics.largeSteps.count;
     group.kernels.brightness = brightness;
     group.kernels.learn(total);
     for (std::size_t i = 0; i < group.chains.size(); ++i)
       group.chains[i]->restart(starts[static_cast<std::size_t>(g) + i * groups_.size()]);
   });
-}
-
-ImportanceMap ChainEnsemble::nextMap(double brightness, long long mutations,
-                                     const Image* direct) const {
-  const Image sampled = past_.image(scene_.film, brightness);
-  Image picture = sampled;
-  if (direct)
-    for (std::size_t i = 0; i < picture.pixels.size(); ++i) picture.pixels[i] += direct->pixels[i];
-  const double perPixel = static_cast<double>(mutations) /
-                          (static_cast<double>(scene_.film.width) * scene_.film.height);
-  const int cell =
-      std::max(1, static_cast<int>(std::lround(std::sqrt(kMutationsPerCell / perPixel))));
-  return ImportanceMap(picture, sampled, cell);
 }
 
 // Systematic resampling: state k is taken floor or ceil of (its share) * chains times.
@@ -187,7 +219,7 @@ std::vector<Path> ChainEnsemble::resampled(const ImportanceMap& next) const {
     sum += next(path.filmX, path.filmY) / importance_(path.filmX, path.filmY);
     cumulative[k] = sum;
   }
-  Random random(seed_, kResampleStream, static_cast<std::uint64_t>(epoch_.number));
+  Random random(seed_, kResampleStream, static_cast<std::uint64_t>(epoch_));
   const double offset = random.uniformDouble();
   std::vector<Path> result;
   result.reserve(count);
@@ -205,7 +237,7 @@ RenderResult ChainEnsemble::result() const {
   const ChainStatistics total = statistics();
   const auto [mean, error] = luminance(total);
   Accumulated all = past_;
-  addEpoch(all, total);
+  addEpoch(all, 0, 1);
   long long neverMoved = 0;
   for (const Group& group : groups_)
     for (const auto& chain : group.chains) neverMoved += !chain->moved();
@@ -219,7 +251,7 @@ RenderResult ChainEnsemble::result() const {
   result.statistics = total.json(groups_[0].kernels.kindNames());
   result.statistics["chains"] = chains_;
   result.statistics["chains that never moved"] = neverMoved;
-  result.statistics["epochs"] = epoch_.number + 1;
+  result.statistics["epochs"] = epoch_ + 1;
   const Moments& first = bootstrap_.luminance();
   result.statistics["bootstrap"] = {{"samples", first.count},
                                     {"mean luminance", first.mean()},

@@ -109,15 +109,40 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
       plan.marks.push_back(mark * pixels / chains.chains() / kRound);
   }
   RenderRequest chainRequest = request;
+  const double chainsBegan = clock.wallSeconds(), directBefore = direct.seconds();
+  std::size_t nextMark = 0;
+  const auto balanceDirect = [&] {
+    const bool last = nextMark >= request.marks.size();
+    const bool timed = request.budget.seconds > 0;
+    DirectLighting::Standing now;
+    now.mutations = chains.mutationsPerPixel();
+    now.seconds = clock.wallSeconds();
+    now.chainSeconds = now.seconds - chainsBegan - (direct.seconds() - directBefore);
+    if (!last)
+      (timed ? now.endSeconds : now.endMutations) = request.marks[nextMark];
+    else if (timed)
+      now.endSeconds = request.budget.seconds;
+    else
+      now.endMutations = static_cast<double>(mutationsPerPixel);
+    now.growth = ChainEnsemble::kGrowth;
+    direct.balance(now);
+  };
   plan.atMark = [&](std::size_t mark, const RoundsResult&) {
     callMark(mark, [&] { return chains.result(); });
+    nextMark = mark + 1;
+    if (split) balanceDirect();
   };
   plan.betweenRounds = [&] {
     if (!chains.epochIsOver()) return;
     Image image;  // in the chains' units
     if (split) image = direct.image();
     for (Rgbf& pixel : image.pixels) pixel *= static_cast<float>(1 / scene.radianceUnit);
-    chains.nextEpoch(split ? &image : nullptr);
+    const ImportanceMap useful = chains.useful(split ? &image : nullptr);
+    if (split) {
+      direct.measure(chains.halves(), chains.cell());
+      balanceDirect();
+    }
+    chains.nextEpoch(useful);
   };
   // Stopped before the chains began: one round, so that the image is whole.
   const std::atomic<bool> goOn{false};

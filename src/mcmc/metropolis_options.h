@@ -14,7 +14,7 @@ inline constexpr Parameter kMetropolisParameters[] = {
      "mutations for each pixel, if no budget is given"},
     {"directSamples", ParameterType::kInteger, "-1",
      "samples a pixel of path tracing for paths of up to two edges, which the chains then leave "
-     "out; 0: the chains do all, -1: chosen by the budget"},
+     "out; 0: the chains do all, -1: what makes the whole picture least noisy"},
     {"chains", ParameterType::kInteger, "512", "independent Markov chains"},
     {"bootstrapSamples", ParameterType::kInteger, "100000",
      "bidirectional samples that place the chains and give the first estimate of the brightness"},
