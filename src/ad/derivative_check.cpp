@@ -71,6 +71,7 @@ class Check {
         int bent = 0, noisy = 0, judged = 0;
         for (int k = 0; k < n_; ++k)
           for (const int at : {triangleIndex(i, k), triangleIndex(j, k)}) {
+            if (at == triangleIndex(i, j)) continue;
             const Verdict neighbour = found[index(at)].verdict;
             bent += neighbour == Verdict::kKink;
             noisy += neighbour == Verdict::kNoise;

@@ -17,10 +17,37 @@ void isotropicGaussian(int dimension, float sigma, Gaussian& gaussian) {
 
 namespace {
 
+// c and s2 of the declaration's formulas: for curvature upwards, and for curvature downwards.
+struct Trajectory {
+  double c[2], s2[2];
+
+  explicit Trajectory(double length)
+      : c{std::cosh(length) - 1, 1 - std::cos(length)},
+        s2{squared(std::sinh(length)), squared(std::sin(length))} {}
+};
+
+// Below this, relative to the prior's deviation, derivatives are the same as none: the largest variance
+// it leaves out is 5 % off the prior's, the longest drift a twentieth of a deviation.
+constexpr double kFlat = 0.05;
+
+// Whether neither matters against the prior: |H| by Frobenius' norm, which no eigenvalue exceeds.
+bool isFlat(const Derivative& derivative, const Trajectory& trajectory, double sigma) {
+  double slope2 = 0, curvature2 = 0;
+  for (int i = 0, k = 0; i < derivative.dimension; ++i) {
+    slope2 += squared(double(derivative.gradient[i]));
+    for (int j = 0; j <= i; ++j, ++k)
+      curvature2 += (i == j ? 1 : 2) * squared(double(derivative.hessian[k]));
+  }
+  // sin^2 is less than sinh^2, and (1 - cos) / sin^2 more than (cosh - 1) / sinh^2.
+  const double drift = trajectory.c[1] / trajectory.s2[1] * sigma;
+  return slope2 * squared(drift) <= squared(kFlat) &&
+         curvature2 * squared(squared(sigma)) <= squared(kFlat * trajectory.s2[1]);
+}
+
 // For derivatives of at most kMost coordinates, all finite; `gaussian` is the prior.
 template <int kMost>
 bool sharpen(const Derivative& derivative, const HamiltonianSettings& settings,
-             Gaussian& gaussian) {
+             const Trajectory& trajectory, Gaussian& gaussian) {
   const int n = derivative.dimension;
   // In double: single precision loses the small eigenvalues of graded matrices.
   double matrix[kMost * kMost];
@@ -29,9 +56,8 @@ bool sharpen(const Derivative& derivative, const HamiltonianSettings& settings,
   ad::SymmetricEigen<kMost> eigen;
   if (!eigen.compute(matrix, n, n)) return false;
 
-  const double prior = double(settings.sigma) * settings.sigma, length = settings.trajectory;
-  const double c[2] = {std::cosh(length) - 1, 1 - std::cos(length)};
-  const double s2[2] = {std::sinh(length) * std::sinh(length), std::sin(length) * std::sin(length)};
+  const double prior = squared(double(settings.sigma));
+  const auto& [c, s2] = trajectory;
   gaussian.isotropic = false;
   gaussian.logNormalisation = 0;
   for (int i = 0; i < n; ++i) {
@@ -59,10 +85,12 @@ bool hamiltonianGaussian(const Derivative& derivative, const HamiltonianSettings
                          Gaussian& gaussian) {
   isotropicGaussian(derivative.dimension, settings.sigma, gaussian);
   if (!derivative.finite()) return false;
+  const Trajectory trajectory(settings.trajectory);
+  if (isFlat(derivative, trajectory, settings.sigma)) return true;
   // Rows as long as they have to be.
-  if (derivative.dimension <= 8) return sharpen<8>(derivative, settings, gaussian);
-  if (derivative.dimension <= 16) return sharpen<16>(derivative, settings, gaussian);
-  return sharpen<kMaxDerivativeDimension>(derivative, settings, gaussian);
+  if (derivative.dimension <= 8) return sharpen<8>(derivative, settings, trajectory, gaussian);
+  if (derivative.dimension <= 16) return sharpen<16>(derivative, settings, trajectory, gaussian);
+  return sharpen<kMaxDerivativeDimension>(derivative, settings, trajectory, gaussian);
 }
 
 void Gaussian::sample(Random& random, float* offset) const {

@@ -34,7 +34,8 @@ struct Gaussian {
 //     variance_i = sigma^2 s2 / (s2 + sigma^2 |l_i|),  mean_i = (c / s2) variance_i (Q^T g)_i,
 //
 // with (c, s2) = (1 - cos L, sin^2 L) for l < 0 and (cosh L - 1, sinh^2 L) for l > 0. The drift is
-// bounded to settings.maxDrift deviations. A function of the derivatives alone.
+// bounded to settings.maxDrift deviations. Where no variance would be 5 % below the prior's, and the drift no
+// twentieth of a deviation, it is the prior and nothing is decomposed. A function of the derivatives alone.
 // False, and the prior, when they are not finite or the eigendecomposition fails.
 bool hamiltonianGaussian(const Derivative& derivative, const HamiltonianSettings& settings,
                          Gaussian& gaussian);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "mcmc/gaussian.h"
@@ -33,8 +34,15 @@ struct ChainState {
 
 // How often derivatives were wanted and what came of it.
 struct DerivativeCounts {
+  long long steps = 0;  // that ask for them at the state and at the proposal
+  long long dark = 0;   // proposals without a contribution, where none are needed
+  long long kept = 0;   // were there already
   long long computed = 0;
+  long long flat = 0;       // too small to matter against the prior: no eigendecomposition
   long long notFinite = 0;  // the prior took their place
+
+  void add(const DerivativeCounts& other);
+  nlohmann::json json() const;
 };
 
 // Seconds that sampled mutations spent in each part; see Profile.

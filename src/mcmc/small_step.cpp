@@ -81,14 +81,20 @@ bool IsotropicStep::propose(ChainState& current, ChainState& proposed, MutationC
 }
 
 void HamiltonianStep::prepare(ChainState& state, MutationContext& context) const {
-  if (state.hasGaussian) return;
+  if (state.hasGaussian) {
+    ++context.derivatives.kept;
+    return;
+  }
   state.hasGaussian = true;
   const double start = context.timed ? wallClock() : 0;
   Derivative derivative;
   ++context.derivatives.computed;
   target_.differentiate(state.path, derivative);
   const double middle = context.timed ? wallClock() : 0;
-  if (!hamiltonianGaussian(derivative, settings_, state.gaussian)) ++context.derivatives.notFinite;
+  if (!hamiltonianGaussian(derivative, settings_, state.gaussian))
+    ++context.derivatives.notFinite;
+  else
+    context.derivatives.flat += state.gaussian.isotropic;
   if (context.timed) {
     context.seconds.derivatives += middle - start;
     context.seconds.gaussian += wallClock() - middle;
@@ -110,6 +116,7 @@ bool HamiltonianStep::propose(ChainState& current, ChainState& proposed, Mutatio
   Path& to = proposed.path;
   const int dimension = from.technique.dimension();
   const bool hasTime = target_.hasTime();
+  ++context.derivatives.steps;
   prepare(current, context);
   float offset[kMaxDerivativeDimension];
   current.gaussian.sample(*context.random, offset);
@@ -120,8 +127,11 @@ bool HamiltonianStep::propose(ChainState& current, ChainState& proposed, Mutatio
   to.sample.choice = from.sample.choice;
   to.sample.time = from.sample.time;
   if (hasTime && !addToTime(from.sample, offset[dimension], to.sample)) return false;
-  if (!addOffset(from.sample, offset, dimension, from.wraps, to.sample) || !target_.evaluate(to))
+  if (!addOffset(from.sample, offset, dimension, from.wraps, to.sample)) return false;
+  if (!target_.evaluate(to)) {
+    ++context.derivatives.dark;
     return false;
+  }
   // The way back must be one that the reverse proposal can take.
   if (to.wraps != from.wraps) return false;
   prepare(proposed, context);

@@ -29,6 +29,21 @@ ChainStatistics::ChainStatistics(int mutationKinds, int maxLength)
       levels(static_cast<std::size_t>(mutationKinds),
              std::vector<AcceptanceCount>(2 * kHighestLevel + 1)) {}
 
+void DerivativeCounts::add(const DerivativeCounts& other) {
+  steps += other.steps;
+  dark += other.dark;
+  kept += other.kept;
+  computed += other.computed;
+  flat += other.flat;
+  notFinite += other.notFinite;
+}
+
+nlohmann::json DerivativeCounts::json() const {
+  return {{"steps", steps},     {"proposals without contribution", dark},
+          {"kept", kept},       {"computed", computed},
+          {"negligible", flat}, {"not finite", notFinite}};
+}
+
 void ChainStatistics::add(const ChainStatistics& other) {
   const auto addAll = [](auto& to, const auto& from) {
     for (std::size_t kind = 0; kind < to.size(); ++kind)
@@ -36,8 +51,7 @@ void ChainStatistics::add(const ChainStatistics& other) {
   };
   addAll(acceptance, other.acceptance);
   addAll(levels, other.levels);
-  derivatives.computed += other.derivatives.computed;
-  derivatives.notFinite += other.derivatives.notFinite;
+  derivatives.add(other.derivatives);
   largeSteps.add(other.largeSteps);
   profile.add(other.profile);
   mutations += other.mutations;
@@ -93,7 +107,7 @@ nlohmann::json ChainStatistics::json(const std::vector<std::string>& kindNames) 
       {"mutations", mutations},
       {"mutation kinds", kinds},
       {"acceptance by level of the target", levelTable(levels, kindNames)},
-      {"derivatives", {{"computed", derivatives.computed}, {"not finite", derivatives.notFinite}}},
+      {"derivatives", derivatives.json()},
       {"time shares",
        {{"tracing", share(profile.rays)},
         {"derivatives", share(profile.derivatives)},

@@ -1,9 +1,11 @@
-"""What the tests of pages share: headless Chromium, driven by Selenium. Skipped without."""
+"""What the tests of pages share: headless Chromium and Firefox, driven by Selenium. Skipped without."""
 
 import os
 import shutil
 import sys
+import unittest
 
+import _firefox
 import _h2mc
 
 SYSTEM_PYTHON = "/usr/bin/python3"  # where Debian's packages are seen
@@ -17,7 +19,7 @@ except ImportError:
         os.execv(SYSTEM_PYTHON, [SYSTEM_PYTHON, *sys.argv])
 
 
-def browser(width=1440, height=900):
+def chromium(_, width=1440, height=900):
     options = webdriver.ChromeOptions()
     for flag in ("--headless", "--no-sandbox", "--disable-gpu", "--no-first-run",
                  "--disable-background-networking", "--disable-component-update", "--disable-sync",
@@ -27,10 +29,21 @@ def browser(width=1440, height=900):
     return webdriver.Chrome(service=webdriver.chrome.service.Service(DRIVER), options=options)
 
 
+def firefox(test, width=1440, height=900):
+    program = _firefox.Firefox(width, height)
+    test.addCleanup(program.stop)
+    return webdriver.Remote(program.url, options=webdriver.FirefoxOptions())
+
+
 class Page(_h2mc.Test):
+    """A subclass with start = _browser.firefox does the same in Firefox."""
+    start = chromium
+
     def open(self, name):
         """A page in the test's folder."""
-        self.driver = browser()
+        if self.start.__func__ is firefox and not _firefox.PROGRAM:
+            raise unittest.SkipTest("not tried in Firefox: this needs the Debian package firefox-esr")
+        self.driver = self.start()
         self.addCleanup(self.driver.quit)
         self.driver.get("file://" + self.path(name))
 
@@ -49,15 +62,22 @@ class Page(_h2mc.Test):
             "return c.getContext('2d').getImageData(0, 0, c.width, c.height).data.reduce((a, b) => a + b, 0)")
 
     def no_errors(self):
-        self.assertEqual([entry["message"] for entry in self.driver.get_log("browser")
-                          if entry["level"] == "SEVERE"], [])
+        if self.start.__func__ is chromium:  # Firefox does not tell
+            self.assertEqual([entry["message"] for entry in self.driver.get_log("browser")
+                              if entry["level"] == "SEVERE"], [])
 
     def fits_a_phone(self):
         """Nothing sticks out; what was chosen is forgotten."""
-        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
-                                    {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
+        if self.start.__func__ is chromium:
+            self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                        {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
+        else:
+            self.driver.set_window_size(500, 844)  # no window of Firefox is narrower than 450
         self.driver.refresh()
-        self.assertLessEqual(self.driver.execute_script("return document.documentElement.scrollWidth"), 390)
+        wide, window = self.driver.execute_script(
+            "return [document.documentElement.scrollWidth, document.documentElement.clientWidth]")
+        self.assertLessEqual(window, 500)
+        self.assertLessEqual(wide, window)
 
 
 def main(page):

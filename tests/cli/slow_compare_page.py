@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The page of h2mc compare in a browser: headless Chromium, driven by Selenium. Skipped without."""
+"""The page of h2mc compare in a browser: headless Chromium and Firefox, driven by Selenium. Skipped without."""
 
 import json
 import struct
@@ -135,6 +135,10 @@ class Page(_browser.Page):
         self.assertEqual(self.all("#scenes button")[0].get_attribute("aria-selected"), "true")
         self.no_errors()
         self.fits_a_phone()
+
+
+class InFirefox(Page):
+    start = _browser.firefox
 
 
 def read_pixels(path, width, height):

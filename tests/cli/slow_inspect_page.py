@@ -79,5 +79,9 @@ class Page(_browser.Page):
         self.fits_a_phone()
 
 
+class InFirefox(Page):
+    start = _browser.firefox
+
+
 if __name__ == "__main__":
     _browser.main("inspect")

@@ -116,6 +116,22 @@ TEST(DerivativeCheck, KinkAtThePointIsNoMistake) {
             Verdict::kKink);
 }
 
+// A second difference is as good as those beside it: not judged where most of these are spoilt.
+TEST(DerivativeCheck, NeighboursOfKinksAreNotJudged) {
+  const auto f = [](const double* x) {
+    const double a = x[0] - kAt[0], b = x[1] - kAt[1];
+    return std::abs(a) + std::abs(b) + a * b;
+  };
+  // With the derivatives to the right but for the mixed one, which is 1.
+  const DerivativeCheck two = check(f, {0, {1, 1}, {0, 2, 0}});
+  EXPECT_EQ(two.hessian[0].verdict, Verdict::kKink);
+  EXPECT_EQ(two.hessian[1].verdict, Verdict::kKink);
+  EXPECT_EQ(two.wrong, 0);
+  // A third coordinate, on which nothing depends, adds as many that are in order.
+  const DerivativeCheck three = check(f, {0, {1, 1, 0}, {0, 2, 0, 0, 0, 0}});
+  EXPECT_EQ(three.hessian[1].verdict, Verdict::kWrong);
+}
+
 TEST(DerivativeCheck, NoiseIsMeasured) {
   // A rounding error of 1e-7, different at every point, as from an intermediate result in float.
   const auto noise = [](double x) {

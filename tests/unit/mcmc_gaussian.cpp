@@ -62,6 +62,22 @@ TEST(HamiltonianGaussian, IsThePriorOnFlatGround) {
   EXPECT_EQ(gaussian.mean[0], 0);
 }
 
+// Nothing is decomposed where it would not matter, and what is left out is small.
+TEST(HamiltonianGaussian, IsThePriorWhereDerivativesAreNegligible) {
+  HamiltonianSettings settings;
+  settings.sigma = 0.01f;
+  Gaussian gaussian;
+  ASSERT_TRUE(hamiltonianGaussian(oneDimension(4.9f, -490), settings, gaussian));
+  EXPECT_TRUE(gaussian.isotropic);
+  EXPECT_EQ(gaussian.deviation[0], 0.01f);
+  for (const auto& [gradient, hessian] : {std::pair{5.1f, 0.f}, std::pair{0.f, -510.f}}) {
+    ASSERT_TRUE(hamiltonianGaussian(oneDimension(gradient, hessian), settings, gaussian));
+    EXPECT_FALSE(gaussian.isotropic);
+    EXPECT_NEAR(gaussian.deviation[0], 0.01, 0.01 * 0.03);
+    EXPECT_NEAR(gaussian.mean[0], 0, 0.01 * 0.06);
+  }
+}
+
 TEST(HamiltonianGaussian, BoundsTheDrift) {
   Gaussian gaussian;
   HamiltonianSettings settings;

@@ -62,8 +62,7 @@ struct Microfacet {
       // 2 / (1 + sqrt(1 + alpha^2 tan^2)) [Walter et al., eq. 34]
       if (ggx) return U(S(2) / (c + ad::sqrt(U(c * c * (S(1) - a * a) + a * a))));
       // Their rational approximation [eq. 27], in x = 1 / (alpha tan).
-      const S sin2 = S(1) - value(c) * value(c);
-      if (!(value(c) < S(1.6) * a * std::sqrt(std::max(sin2, S(0))))) return U(S(1) / c);
+      if (!isMasked(value(c), a)) return U(S(1) / c);
       const U s = S(1) / (ad::sqrt(U(S(1) - c * c)) * a);
       const U x = c * s;
       return U(s * (S(3.535) + S(2.181) * x) / (S(1) + x * (S(2.276) + S(2.577) * x)));
@@ -75,13 +74,13 @@ struct Microfacet {
   template <class T>
   T masking(const T& cosine) const {
     using S = Scalar<T>;
-    const S c2 = value(cosine) * value(cosine), a2 = S(alpha) * S(alpha), sin2 = S(1) - c2;
+    const S c = value(cosine), a2 = S(alpha) * S(alpha);
     if (distribution == FacetDistribution::kBeckmann) {
-      if (!(c2 < S(2.56) * a2 * sin2)) return T(S(1));
-    } else if (a2 * sin2 < c2) {
-      return ofOne(cosine, [a2](const auto& c) {
-        using U = std::remove_cvref_t<decltype(c)>;
-        const U tan2 = S(1) / (c * c) - S(1);
+      if (!isMasked(c, S(alpha))) return T(S(1));
+    } else if (a2 * (S(1) - c * c) < c * c) {
+      return ofOne(cosine, [a2](const auto& x) {
+        using U = std::remove_cvref_t<decltype(x)>;
+        const U tan2 = S(1) / (x * x) - S(1);
         return U(S(2) / (S(1) + ad::sqrt(U(S(1) + tan2 * a2))));
       });
     }
@@ -143,6 +142,13 @@ struct Microfacet {
   // Below this |wi + wo|^2 both directions graze the surface from opposite sides; nothing is
   // reflected there, which leaves out a solid angle of 1e-12 and keeps float derivatives in range.
   static constexpr float kSmallestHalf2 = 1e-12f;
+
+ private:
+  // Whether Walter et al.'s rational approximation has G1 < 1: alpha tan > 1 / 1.6 at this cosine.
+  template <class S>
+  static bool isMasked(S cosine, S a) {
+    return cosine * cosine < S(2.56) * a * a * (S(1) - cosine * cosine);
+  }
 };
 
 }  // namespace h2mc

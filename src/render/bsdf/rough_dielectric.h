@@ -25,42 +25,15 @@ struct RoughDielectric {
 
   template <class T>
   BsdfValue<T> evaluate(const Vec2<T>& uv, const Vec3<T>& wi, const Vec3<T>& wo) const {
-    using S = Scalar<T>;
-    const S ci = value(wi.z), co = value(wo.z);
-    if (ci == 0 || co == 0) return BsdfValue<T>::zero();
-    const S relative = relativeIndex<S>(ci);
-    const Vec3<T> in = ci < 0 ? flipped(wi) : wi, out = ci < 0 ? flipped(wo) : wo;
-    if ((ci > 0) == (co > 0)) {
-      const FacetReflection<T> r = facets.reflect(in, out);
-      if (!(value(r.pdf) > 0)) return BsdfValue<T>::zero();
-      const T f = fresnelDielectric(r.cosHalf, relative);
-      const T pdf = r.pdf * f;
-      return {modulate<T>(*specularReflectance, uv, pdf * r.weight * S(reflectanceScale)), pdf,
-              r.pdfReverse * f};
-    }
-    const Transmission<T> t = transmit(in, out, relative);
-    if (!(value(t.pdf) > 0)) return BsdfValue<T>::zero();
-    return {modulate<T>(*specularTransmittance, uv, t.pdf * t.weight * S(transmittanceScale)),
-            t.pdf, t.pdfReverse};
+    const Interaction<T> r = interaction(wi, wo);
+    if (!r.colour) return BsdfValue<T>::zero();
+    return {modulate<T>(*r.colour, uv, r.pdf * r.weight), r.pdf, r.pdfReverse};
   }
   template <class T>
   SampledBsdf<T> sampled(const Vec2<T>& uv, const Vec3<T>& wi, const Vec3<T>& wo) const {
-    using S = Scalar<T>;
-    const S ci = value(wi.z), co = value(wo.z);
-    if (ci == 0 || co == 0) return SampledBsdf<T>::zero();
-    const S relative = relativeIndex<S>(ci);
-    const Vec3<T> in = ci < 0 ? flipped(wi) : wi, out = ci < 0 ? flipped(wo) : wo;
-    if ((ci > 0) == (co > 0)) {
-      const FacetReflection<T> r = facets.reflect(in, out);
-      if (!(value(r.pdf) > 0)) return SampledBsdf<T>::zero();
-      const T f = fresnelDielectric(r.cosHalf, relative);
-      return {modulate<T>(*specularReflectance, uv, r.weight * S(reflectanceScale)), r.pdf * f,
-              r.pdfReverse * f};
-    }
-    const Transmission<T> t = transmit(in, out, relative);
-    if (!(value(t.pdf) > 0)) return SampledBsdf<T>::zero();
-    return {modulate<T>(*specularTransmittance, uv, t.weight * S(transmittanceScale)), t.pdf,
-            t.pdfReverse, relative * relative};
+    const Interaction<T> r = interaction(wi, wo);
+    if (!r.colour) return SampledBsdf<T>::zero();
+    return {modulate<T>(*r.colour, uv, r.weight), r.pdf, r.pdfReverse, r.importance};
   }
 
   float lobeSplit(const Vec2f&, const Vec3f& wi, float u0, float u1) const {
@@ -129,33 +102,51 @@ struct RoughDielectric {
     return cosine < 0 ? S(1) / S(eta) : S(eta);
   }
 
+  // As SampledBsdf without the colour; none where that is null.
   template <class T>
-  struct Transmission {
-    T weight;  // as SampledBsdf's, without the colour
-    T pdf, pdfReverse;
-    static Transmission none() { return {T(0), T(0), T(0)}; }
+  struct Interaction {
+    T weight, pdf, pdfReverse;
+    Scalar<T> importance = 1;
+    const Texture* colour = nullptr;
+    static Interaction none() { return {T(0), T(0), T(0)}; }
   };
+
+  template <class T>
+  Interaction<T> interaction(const Vec3<T>& wi, const Vec3<T>& wo) const {
+    using S = Scalar<T>;
+    const S ci = value(wi.z), co = value(wo.z);
+    if (ci == 0 || co == 0) return Interaction<T>::none();
+    const S relative = relativeIndex<S>(ci);
+    const Vec3<T> in = ci < 0 ? flipped(wi) : wi, out = ci < 0 ? flipped(wo) : wo;
+    if ((ci > 0) != (co > 0)) return transmit(in, out, relative);
+    const FacetReflection<T> r = facets.reflect(in, out);
+    if (!(value(r.pdf) > 0)) return Interaction<T>::none();
+    const T f = fresnelDielectric(r.cosHalf, relative);
+    return {r.weight * S(reflectanceScale), r.pdf * f, r.pdfReverse * f, S(1),
+            specularReflectance.get()};
+  }
 
   // in.z > 0 > out.z. With h = in + eta out, parallel to the facet's normal m, the Jacobian's
   // (in.m + eta out.m)^2 [Walter et al., eq. 17] is |h|^2.
   template <class T>
-  Transmission<T> transmit(const Vec3<T>& in, const Vec3<T>& out, Scalar<T> relative) const {
+  Interaction<T> transmit(const Vec3<T>& in, const Vec3<T>& out, Scalar<T> relative) const {
     using S = Scalar<T>;
     Vec3<T> h = in + out * relative;
     if (value(h.z) < 0) h = -h;
     const T h2 = ad::length2(h);
-    if (!(value(h2) > Microfacet::kSmallestHalf2 && value(h.z) > 0)) return Transmission<T>::none();
+    if (!(value(h2) > Microfacet::kSmallestHalf2 && value(h.z) > 0)) return Interaction<T>::none();
     const T inverse = ad::rsqrt(h2);
     const T ci = ad::dot(in, h) * inverse, co = ad::dot(out, h) * -inverse;
-    if (!(value(ci) > 0 && value(co) > 0)) return Transmission<T>::none();
+    if (!(value(ci) > 0 && value(co) > 0)) return Interaction<T>::none();
     const T d = facets.density(h, h2);
-    if (!(value(d) > 0)) return Transmission<T>::none();
+    if (!(value(d) > 0)) return Interaction<T>::none();
     const T down = -out.z;
     const T shared = d * transmitDielectric(ci, co, relative) / h2;
     const S relative2 = relative * relative;
-    Transmission<T> r;
+    Interaction<T> r;
     // Radiance is divided by relative^2 as it enters the denser side, which eq. 21 multiplies by.
-    r.weight = facets.masking(down) * (S(1) / relative2);
+    r.weight = facets.masking(down) * (S(transmittanceScale) / relative2);
+    r.importance = relative2;
     if (facets.distribution == FacetDistribution::kGgx) {
       const T seen = shared * ci * co;
       r.pdf = seen * facets.maskingOverCos(in.z) * relative2;
@@ -167,6 +158,7 @@ struct RoughDielectric {
       r.pdf = drawn * co * relative2;
       r.pdfReverse = drawn * ci;
     }
+    if (value(r.pdf) > 0) r.colour = specularTransmittance.get();
     return r;
   }
 };

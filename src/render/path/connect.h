@@ -145,7 +145,7 @@ Link<T> linkToLight(const Scene& scene, const Arrival<T>& vertex, PrimitiveId id
         if (link.zero()) return link;
         if (!l.isDelta()) link.direct = e.pdf * inverse;
         if (techniques == Techniques::kBidirectional) {
-          const T cosHere = abs(dot(vertex.point.ng, direct.direction));
+          const T cosHere = geometricCosine(vertex.point, wo, direct.direction);
           link.camera.vcm = direct.emissionPdf * (scene.emissionPicker.probability(light) / pick) *
                             cosHere / (direct.directPdf * direct.cosLight);
           link.camera.vc = link.camera.vcm * e.pdfReverse;
@@ -170,8 +170,8 @@ Link<T> linkOfVertices(const Scene& scene, const Arrival<T>& camera, PrimitiveId
   const Vec3<T> toCamera = light.point.shading.toLocal(-toLight);
   const BsdfValue<T> el = evaluateMaterial<T>(scene.bsdfs, materialAt(scene, lightId),
                                               light.point.uv, toCamera, light.wi);
-  const T cosCamera = abs(dot(camera.point.ng, toLight));
-  const T cosLight = abs(dot(light.point.ng, toLight));
+  const T cosCamera = geometricCosine(camera.point, wo, toLight);
+  const T cosLight = geometricCosine(light.point, toCamera, toLight);
   const T spread = cosLight * inverse2;
   Link<T> link(ec.value * el.value * (spread / light.cosIn));
   if (link.zero()) return link;
@@ -195,7 +195,7 @@ Link<T> linkToCamera(const Scene& scene, const Arrival<T>& light, PrimitiveId id
     const Vec3<T> wi = light.point.shading.toLocal(-fromCamera);
     const BsdfValue<T> e =
         evaluateMaterial<T>(scene.bsdfs, materialAt(scene, id), light.point.uv, wi, light.wi);
-    const T cosHere = abs(dot(light.point.ng, fromCamera));
+    const T cosHere = geometricCosine(light.point, wi, fromCamera);
     const T cameraPdf = scene.camera.pdf(cosine) * cosHere * inverse2;  // per area
     Link<T> link(e.value * (cameraPdf / light.cosIn));
     if (link.zero()) return link;
