@@ -179,9 +179,15 @@ Reference givenReference(const ComparisonPlan& plan, const ComparedScene& scene,
       for (Rgbf& e : off.pixels) e = e * e;
       if (factor > 1) off = averaged(off, factor);
       const float scale = 1.f / static_cast<float>(factor);
-      for (std::size_t i = 0; i < off.pixels.size(); ++i)
-        for (int c = 0; c < 3; ++c)
-          off.pixels[i][c] = result.image.pixels[i][c] + scale * std::sqrt(off.pixels[i][c]);
+      double variance = 0;  // of the sum of luminances, pixels taken as independent
+      for (std::size_t i = 0; i < off.pixels.size(); ++i) {
+        for (int c = 0; c < 3; ++c) off.pixels[i][c] = scale * std::sqrt(off.pixels[i][c]);
+        variance += squared(static_cast<double>(luminance(off.pixels[i])));
+        off.pixels[i] += result.image.pixels[i];
+      }
+      const double sum =
+          meanLuminance(result.image) * static_cast<double>(result.image.pixels.size());
+      if (sum > 0) result.facts.brightness = std::sqrt(variance) / sum;
       result.facts.error = relmse(off, result.image);
       result.facts.origin += ", its error by " + errors.filename().string();
     }

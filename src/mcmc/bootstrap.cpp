@@ -15,23 +15,26 @@ constexpr long long kBlock = 4096;
 }  // namespace
 
 Bootstrap::Bootstrap(const Scene& scene, int minLength, int maxLength, long long samples,
-                     std::uint64_t seed, int threads)
+                     std::uint64_t seed, int threads, const std::atomic<bool>* stop)
     : scene_(scene), minLength_(minLength), maxLength_(maxLength), seed_(seed) {
   const TechniqueDistribution techniques(minLength, maxLength);
   const auto count = static_cast<std::size_t>(techniques.size());
   struct Block {
     std::vector<double> mean, squares;
-    long long notFinite = 0;
+    long long notFinite = 0, samples = 0;
   };
   const auto blocks = static_cast<int>((samples + kBlock - 1) / kBlock);
   std::vector<Block> block(static_cast<std::size_t>(blocks));
   cumulative_.resize(static_cast<std::size_t>(samples));
   parallelFor(threads, blocks, [&](int b) {
     Block& own = block[static_cast<std::size_t>(b)];
+    if (b > 0 && stop && *stop) return;
     own.mean.assign(count, 0);
     own.squares.assign(count, 0);
     BidirectionalSampler sampler(maxLength);
-    for (long long i = b * kBlock; i < std::min(samples, (b + 1) * kBlock); ++i) {
+    const long long first = b * kBlock, end = std::min(samples, first + kBlock);
+    own.samples = end - first;
+    for (long long i = first; i < end; ++i) {
       Random random(seed, kStream, static_cast<std::uint64_t>(i));
       double sum = 0;
       own.notFinite += sampler.sample(
@@ -47,18 +50,26 @@ Bootstrap::Bootstrap(const Scene& scene, int minLength, int maxLength, long long
   });
   techniqueMean_.assign(count, 0);
   techniqueSquares_.assign(count, 0);
+  double total = 0;
+  auto at = cumulative_.begin();
   for (const Block& own : block) {
+    if (own.samples == 0) {  // stopped: nobody starts there
+      for (long long i = 0; i < kBlock && at != cumulative_.end(); ++i) *at++ = total;
+      continue;
+    }
     for (std::size_t k = 0; k < count; ++k) {
-      techniqueMean_[k] += own.mean[k] / static_cast<double>(samples);
-      techniqueSquares_[k] += own.squares[k] / static_cast<double>(samples);
+      techniqueMean_[k] += own.mean[k];
+      techniqueSquares_[k] += own.squares[k];
     }
     notFinite_ += own.notFinite;
+    for (long long i = 0; i < own.samples; ++i, ++at) {
+      luminance_.add(*at);
+      *at = total += *at;
+    }
   }
-  double total = 0;
-  for (double& c : cumulative_) {
-    luminance_.add(c);
-    c = total += c;
-  }
+  const auto traced = static_cast<double>(luminance_.count);
+  for (double& mean : techniqueMean_) mean /= traced;
+  for (double& square : techniqueSquares_) square /= traced;
 }
 
 void Bootstrap::drawStart(Random& random, Path& start) const {

@@ -1,6 +1,7 @@
 // Where chains start, and how bright the image is: bidirectional path tracing over the whole film.
 #pragma once
 
+#include <atomic>
 #include <stdexcept>
 
 #include "mcmc/statistics.h"
@@ -19,9 +20,10 @@ class ReplayError : public std::logic_error {
 class Bootstrap {
  public:
   // Traces `samples` bidirectional samples of path lengths minLength .. maxLength; sample i draws
-  // from Random(seed, its own stream, i). The same result for any number of threads.
+  // from Random(seed, its own stream, i). The same result for any number of threads. Once `stop` is set,
+  // if it is given, no more samples are begun; some there are always.
   Bootstrap(const Scene& scene, int minLength, int maxLength, long long samples, std::uint64_t seed,
-            int threads);
+            int threads, const std::atomic<bool>* stop = nullptr);
 
   // Luminance of a whole sample: its mean is the film's mean luminance (of these path lengths).
   const Moments& luminance() const { return luminance_; }

@@ -50,7 +50,7 @@ bool sharpen(const Derivative& derivative, const HamiltonianSettings& settings,
              const Trajectory& trajectory, Gaussian& gaussian) {
   const int n = derivative.dimension;
   // In double: single precision loses the small eigenvalues of graded matrices.
-  double matrix[kMost * kMost];
+  double matrix[kMost * kMost] = {};
   for (int i = 0, k = 0; i < n; ++i)
     for (int j = 0; j <= i; ++j, ++k) matrix[i * n + j] = derivative.hessian[k];
   ad::SymmetricEigen<kMost> eigen;

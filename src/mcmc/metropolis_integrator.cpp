@@ -74,11 +74,14 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
     clock.exclude([&] { request.atMark(mark, finished(result())); });
     extendDirect(mark + 1);
   };
+  const auto stopped = [&] { return request.stop && *request.stop; };
   // Where there is nothing for the chains to do.
   const auto directAlone = [&] {
     for (std::size_t mark = 0; mark < request.marks.size() && !direct.interrupted(); ++mark)
       callMark(mark, [] { return RenderResult(); });
-    return finished({});
+    RenderResult none;
+    none.interrupted = stopped();
+    return finished(none);
   };
 
   extendDirect(0);
@@ -86,7 +89,8 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
 
   const long long bootstrapSamples = std::max(1, options_.integer("bootstrapSamples"));
   const Bootstrap bootstrap(scene, minLength, maxLength, bootstrapSamples, request.seed,
-                            request.threads);
+                            request.threads, request.stop);
+  const bool stoppedEarly = stopped();
   if (!(bootstrap.luminance().mean() > 0)) {
     spdlog::warn("no light arrives through paths of {} to {} edges: nothing to sample there",
                  minLength, maxLength);
@@ -146,7 +150,7 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
   };
   // Stopped before the chains began: one round, so that the image is whole.
   const std::atomic<bool> goOn{false};
-  if (direct.interrupted()) {
+  if (stoppedEarly) {
     chainRequest.stop = &goOn;
     plan.rounds = 1;
     plan.marks.clear();
@@ -158,7 +162,7 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
       });
 
   RenderResult result = chains.result();
-  result.interrupted = rounds.interrupted;
+  result.interrupted = rounds.interrupted || stoppedEarly;
   return finished(std::move(result));
 }
 

@@ -5,6 +5,7 @@ import csv
 import json
 import os
 import re
+import shutil
 import signal
 import struct
 import subprocess
@@ -154,6 +155,14 @@ class Compare(_h2mc.Test):
     def size(self, file):
         x0, y0, x1, y1 = struct.unpack("<4i", self.read_exr(self.path(file))[0]["dataWindow"])
         return x1 - x0 + 1, y1 - y0 + 1
+
+    def test_brightness_is_off_by_more_than_the_reference_knows(self):
+        self.reference("bright.exr", more=("-D", "radiance=4.2"))
+        command = ("compare", "box.xml", "-i", "path", "-m", 64, "-k", 3, "-r", "bright.exr", "-o")
+        self.assertIn("BRIGHTNESS OFF", self.succeeds(*command, "certain").stdout)
+        # Pixels known to 100 %, their mean to a few.
+        shutil.copy(self.path("bright.exr"), self.path("bright_stderr.exr"))
+        self.assertNotIn("BRIGHTNESS OFF", self.succeeds(*command, "uncertain").stdout)
 
     def test_external_images(self):
         self.reference()

@@ -130,6 +130,17 @@ class Render(_h2mc.Test):
                 os.remove(self.path("a.exr"))
                 os.remove(self.path("a.json"))
 
+    # Minutes of samples that place the chains: these end too, and the image is whole.
+    def test_interrupted_before_the_chains_begin(self):
+        process = self.start("-i", "mmlt:bootstrapSamples=20000000,directSamples=1", stderr=subprocess.PIPE)
+        time.sleep(2)
+        process.send_signal(signal.SIGINT)
+        _, messages = process.communicate(timeout=30)
+        self.assertEqual(process.returncode, 130, messages)
+        attributes, _ = self.read_exr("a.exr")
+        self.assertEqual(attributes["interrupted"], 1)
+        self.assertGreater(attributes["meanLuminance"], 0)
+
     # Lines, and not many of them, where stderr is no terminal.
     def test_plain_progress(self):
         process = self.start("-i", "path", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
