@@ -15,7 +15,7 @@ constexpr int kNeighbours = 16;
 constexpr double kDistance = 0x1p-6, kShortest = 0x1p-22;
 // Nearer ones, that tell what a few of these units make of a derivative; a unit, of a coordinate near 1;
 // and how many times kShortest they may lie away where float's points are coarse.
-constexpr int kNearer = 32;
+constexpr int kNearer = 128;
 constexpr double kUnit = 0x1p-24, kMostMagnified = 0x1p6;
 // How much more than the value's a derivative's relative error may be, when both are rounding.
 constexpr double kMagnified = 10;
@@ -89,6 +89,7 @@ double magnification(const Scene& scene, const Path& path) {
 // How far the derivatives in double of paths nearby are from those of the path, at most.
 struct Spread {
   double value = 0, gradient = 0, hessian = 0;
+  bool atBorder = false;  // some of them carry no light
 
   void add(const ad::DerivativeValues& there, const ad::DerivativeValues& here) {
     value = std::max(value, std::abs(there.value - here.value));
@@ -179,6 +180,8 @@ Spread spreadAround(const Scene& scene, const Path& path, const ad::DerivativeVa
     if (neighbour(scene, std::vector<double>(exact.gradient.size(), reach), settings, random, near,
                   there))
       result.add(there, exact);
+    else
+      result.atBorder = true;
   }
   return result;
 }
@@ -231,7 +234,7 @@ FormCheck checkForm(const Scene& scene, const Path& path, const ad::DerivativeVa
            (around.enough() && isRounding(scatter, around.count, allowed * scale, triangle));
   };
   const bool rounding =
-      path.target < kSmallestTarget || off > kAnotherPath ||
+      path.target < kSmallestTarget || off > kAnotherPath || spread.atBorder ||
       ((valueRight || result.value <= tolerance + spread.value) &&
        explained(result.gradient, spread.gradient, around.gradient, gradientScale, false) &&
        explained(result.hessian, spread.hessian, around.hessian, hessianScale, true));
