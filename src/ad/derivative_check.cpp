@@ -61,23 +61,32 @@ class Check {
 
  private:
   // What spoils one second difference, a kink across its coordinates or noise, spoils those beside it,
-  // and not each of them shows that by itself.
+  // and not each of them shows that by itself. One is not judged where that by each of its two coordinates
+  // twice is not, or most of those beside it are not; zeros that depend on nothing say nothing.
   void excuse(std::vector<EntryCheck>& hessian) const {
     const std::vector<EntryCheck> found = hessian;
+    const auto at = [&](int i, int j) -> const EntryCheck& {
+      return found[index(triangleIndex(i, j))];
+    };
+    const auto unjudged = [](const EntryCheck& e) {
+      return e.verdict == Verdict::kKink || e.verdict == Verdict::kNoise;
+    };
     for (int i = 0; i < n_; ++i)
       for (int j = 0; j <= i; ++j) {
-        Verdict& verdict = hessian[index(triangleIndex(i, j))].verdict;
-        if (verdict != Verdict::kWrong) continue;
+        if (at(i, j).verdict != Verdict::kWrong) continue;
         int bent = 0, noisy = 0, judged = 0;
+        const auto look = [&](const EntryCheck& e) {
+          if (&e == &at(i, j) || (e.exact == 0 && e.difference == 0)) return;
+          bent += e.verdict == Verdict::kKink;
+          noisy += e.verdict == Verdict::kNoise;
+          judged += !unjudged(e);
+        };
         for (int k = 0; k < n_; ++k)
-          for (const int at : {triangleIndex(i, k), triangleIndex(j, k)}) {
-            if (at == triangleIndex(i, j)) continue;
-            const Verdict neighbour = found[index(at)].verdict;
-            bent += neighbour == Verdict::kKink;
-            noisy += neighbour == Verdict::kNoise;
-            judged += neighbour == Verdict::kAgrees || neighbour == Verdict::kWrong;
-          }
-        if (bent + noisy > judged) verdict = bent > noisy ? Verdict::kKink : Verdict::kNoise;
+          for (const int own : {i, j}) look(at(own, k));
+        const bool both = i != j && unjudged(at(i, i)) && unjudged(at(j, j));
+        if (both || bent + noisy > judged)
+          hessian[index(triangleIndex(i, j))].verdict =
+              bent > noisy ? Verdict::kKink : Verdict::kNoise;
       }
   }
 

@@ -118,8 +118,8 @@ TEST(DerivativeCheck, KinkAtThePointIsNoMistake) {
 
 // A second difference is not judged where most of those beside it are spoilt.
 TEST(DerivativeCheck, NeighboursOfKinksAreNotJudged) {
-  // a b + (a + b) (|c| + |d| + ..): mixed second derivatives that jump, none of them along an axis.
-  // The exact values are those to the right, but for that by a and b, which is 1.
+  // (a + b)^2 + (a + b) (|c| + |d| + ..): mixed second derivatives that jump, none of them along an axis.
+  // The exact values are those to the right, but for that by a and b, which is 2.
   const auto checked = [](int kinks) {
     const int n = 2 + kinks;
     const std::vector<double> at(static_cast<std::size_t>(n), 0.5);
@@ -128,12 +128,12 @@ TEST(DerivativeCheck, NeighboursOfKinksAreNotJudged) {
       double sum = 0;
       for (int k = 2; k < n; ++k) sum += std::abs(x[k] - 0.5);
       const double a = x[0] - 0.5, b = x[1] - 0.5;
-      return a * b + (a + b) * sum;
+      return (a + b) * (a + b) + (a + b) * sum;
     };
     DerivativeValues exact{0, std::vector<double>(at.size(), 0), {}};
     for (int i = 0; i < n; ++i)
       for (int j = 0; j <= i; ++j)
-        exact.hessian.push_back(i >= 2 && j < 2 ? 1 : (i == 1 && j == 0 ? 2 : 0));
+        exact.hessian.push_back(i >= 2 ? (j < 2 ? 1 : 0) : (i == j ? 2 : 3));
     return checkDerivative(f, at.data(), n, steps.data(), exact, kTolerance);
   };
   for (const int kinks : {1, 2}) {
