@@ -49,14 +49,21 @@ struct VectorOf {
 constexpr int divideUp(int a, int b) { return (a + b - 1) / b; }
 
 /// Lanes of the vectors that hold `entries` numbers: the smallest vector that holds them all, or a
-/// whole register, or half of one where three halves do the work of two.
+/// whole register.
 template <class T>
 constexpr int vectorWidth(int entries) {
   const int whole = kRegisterBytes / int(sizeof(T));
   int width = 16 / int(sizeof(T));
   while (width < entries && width < whole) width *= 2;
-  const bool halvesDo = entries > whole && divideUp(entries, whole / 2) == 3;
-  return kRegisterBytes == 64 && halvesDo ? whole / 2 : width;
+  return width;
+}
+
+/// The same, or half of a register of 64 bytes where two or three halves hold the entries: the gradient of
+/// a triangle that is stored so, and its shuffles, are half as wide.
+template <class T>
+constexpr int narrowWidth(int entries) {
+  const int width = vectorWidth<T>(entries), half = 32 / int(sizeof(T));
+  return width > half && divideUp(entries, half) <= 3 ? half : width;
 }
 
 /// Calls f(std::integral_constant<int, 0>) ... f(std::integral_constant<int, Count - 1>), unrolled.
@@ -71,7 +78,7 @@ H2MC_AD_INLINE void unroll(F&& f) {
 template <class T, int N>
 struct PackedLayout {
   static constexpr int kEntries = N * (N + 1) / 2;
-  static constexpr int kWidth = vectorWidth<T>(kEntries);
+  static constexpr int kWidth = narrowWidth<T>(kEntries);
   static constexpr int kGradient = divideUp(N, kWidth);        // vectors of the gradient
   static constexpr int kHessian = divideUp(kEntries, kWidth);  // vectors of the triangle
   using Vec = typename VectorOf<T, kWidth>::type;
@@ -114,7 +121,8 @@ struct PackedLayout {
 
 template <class T, int N>
 struct RowLayout {
-  static constexpr int kWidth = vectorWidth<T>(N);
+  // A row that one register holds stays whole.
+  static constexpr int kWidth = N > vectorWidth<T>(N) ? narrowWidth<T>(N) : vectorWidth<T>(N);
   static constexpr int firstChunk(int row) {
     const int q = row / kWidth, r = row % kWidth;
     return kWidth * q * (q + 1) / 2 + r * (q + 1);
