@@ -44,7 +44,8 @@ class DirectLighting {
   // Brings it up to what makes the variance of the whole picture least, by what was measured, when the
   // render is over or when it has `growth` times the mutations. A number given by the option
   // directSamples stays. By what samples and mutations have cost where the budget is a time, else at
-  // a fixed price, so that the picture does not depend on the clock.
+  // a fixed price, so that the picture does not depend on the clock. As the number then depends on the
+  // samples before, their mean is biased, but by one number for the whole picture: some 1e-5 of it.
   void balance(const Standing& now);
   // Wall seconds so far.
   double seconds() const { return halves_[0].wallSeconds + halves_[1].wallSeconds; }
