@@ -45,7 +45,8 @@ class DirectLighting {
   // render is over or when it has `growth` times the mutations. A number given by the option
   // directSamples stays. By what samples and mutations have cost where the budget is a time, else at
   // a fixed price, so that the picture does not depend on the clock. As the number then depends on the
-  // samples before, their mean is biased, but by one number for the whole picture: some 1e-5 of it.
+  // samples before, their mean is biased: by a few hundredths of its standard error where few samples
+  // decide, and by less the more there are.
   void balance(const Standing& now);
   // Wall seconds so far.
   double seconds() const { return halves_[0].wallSeconds + halves_[1].wallSeconds; }
