@@ -100,6 +100,7 @@ void DirectLighting::add(const RenderBudget& budget) {
     ++parts_;
     own.threads = request_.threads;
     own.stop = request_.stop;
+    own.progress = request_.progress;
     own.budget.seconds = budget.seconds / 2;
     if (samples > 0) {
       own.budget.samplesPerPixel = (before + samples + 1 - half) / 2 - perPixel(half);

@@ -15,7 +15,8 @@ class DirectLighting {
  public:
   static constexpr int kLongest = 2;  // in edges
 
-  // By the options minDepth and directSamples; the request's seed, threads and stop flag.
+  // By the options minDepth and directSamples; the request's seed, threads, stop flag and
+  // progress, which is called while it renders.
   // Keeps references.
   DirectLighting(const Scene& scene, const OptionSet& options, const RenderRequest& request);
 

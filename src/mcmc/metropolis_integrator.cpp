@@ -46,7 +46,14 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
   if (mutationsPerPixel == 0 && request.budget.seconds <= 0)
     mutationsPerPixel = options_.integer("mutationsPerPixel");
 
-  DirectLighting direct(scene, options_, request);
+  RenderRequest directRequest = request;
+  directRequest.progress = nullptr;
+  if (request.progress && request.budget.seconds > 0)
+    directRequest.progress = [&](const RenderProgress& own) {
+      const double now = clock.wallSeconds();
+      request.progress({std::min(now / request.budget.seconds, 1.0), now, own.rate, own.rateUnit});
+    };
+  DirectLighting direct(scene, options_, directRequest);
   const bool split = direct.wanted();
   if (split) minLength = DirectLighting::kLongest + 1;
   // Direct lighting keeps pace with the chains: up to mark i it gets what a render that ends there
