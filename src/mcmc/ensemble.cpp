@@ -173,17 +173,15 @@ TwoEstimates ChainEnsemble::halves() const {
   return result;
 }
 
-ImportanceMap ChainEnsemble::useful(const Image* direct) const {
-  Accumulated all = past_;
-  addEpoch(all, 0, 1);
-  const Image sampled = all.image(scene_.film, luminance(statistics()).mean);
+ImportanceMap ChainEnsemble::nextMap(double brightness, const Image* direct) const {
+  const Image sampled = past_.image(scene_.film, brightness);
   Image picture = sampled;
   if (direct)
     for (std::size_t i = 0; i < picture.pixels.size(); ++i) picture.pixels[i] += direct->pixels[i];
   return ImportanceMap(picture, sampled, cell());
 }
 
-void ChainEnsemble::nextEpoch(const ImportanceMap& next) {
+void ChainEnsemble::nextEpoch(const Image* direct) {
   for (Group& group : groups_)
     for (const auto& chain : group.chains) chain->flush(group.kernels, group.films.states);
   addEpoch(past_, 0, 1);
@@ -191,9 +189,9 @@ void ChainEnsemble::nextEpoch(const ImportanceMap& next) {
 
   const ChainStatistics total = statistics();
   const double brightness = luminance(total).mean;
-  const ImportanceMap map = useMap_ ? next : importance_;
-  const std::vector<Path> starts = resampled(map);
-  importance_ = map;
+  const ImportanceMap next = useMap_ ? nextMap(brightness, direct) : importance_;
+  const std::vector<Path> starts = resampled(next);
+  importance_ = next;
   parallelFor(threads_, groups(), [&](int g) {
     Group& group = groups_[static_cast<std::size_t>(g)];
     group.films.clear();

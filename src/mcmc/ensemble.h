@@ -28,16 +28,13 @@ class ChainEnsemble {
   // Makes `steps` mutations with each chain of a group. Groups may run in parallel.
   void run(int group, long long steps);
 
-  // Whether the epoch is over. Then nextEpoch() may be called, between two runs, with the map for its
-  // target, which useful() gives.
+  // Whether the epoch is over. Then nextEpoch() may be called, between two runs; `direct` is an image
+  // of what the chains leave out, in the scene's units, or null.
   bool epochIsOver() const;
-  void nextEpoch(const ImportanceMap& next);
+  void nextEpoch(const Image* direct);
   // How many times as many mutations as now the next epoch's end will have seen.
   static constexpr double kGrowth = 4;
 
-  // By the picture so far; `direct` is an image of what the chains leave out, in the scene's units, or
-  // null.
-  ImportanceMap useful(const Image* direct) const;
   // The present epoch's picture by every second group and by the others, in the scene's units.
   TwoEstimates halves() const;
   double mutationsPerPixel() const;
@@ -78,6 +75,8 @@ class ChainEnsemble {
     double mean, error;
   };
   Luminance luminance(const ChainStatistics& total) const;
+  // By the picture of all past epochs, and what the chains leave out.
+  ImportanceMap nextMap(double brightness, const Image* direct) const;
   // A start for each chain under the next map: their states, in proportion to what the new target is
   // of the present one.
   std::vector<Path> resampled(const ImportanceMap& next) const;

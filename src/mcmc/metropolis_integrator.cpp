@@ -145,15 +145,12 @@ RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderReques
   };
   plan.betweenRounds = [&] {
     if (!chains.epochIsOver()) return;
-    Image image;  // in the chains' units
-    if (split) image = direct.image();
+    if (!split) return chains.nextEpoch(nullptr);
+    direct.measure(chains.halves(), chains.cell());
+    balanceDirect();
+    Image image = direct.image();
     for (Rgbf& pixel : image.pixels) pixel *= static_cast<float>(1 / scene.radianceUnit);
-    const ImportanceMap useful = chains.useful(split ? &image : nullptr);
-    if (split) {
-      direct.measure(chains.halves(), chains.cell());
-      balanceDirect();
-    }
-    chains.nextEpoch(useful);
+    chains.nextEpoch(&image);
   };
   // Stopped before the chains began: one round, so that the image is whole.
   const std::atomic<bool> goOn{false};

@@ -4,9 +4,8 @@
 
 #include <random>
 
-#include "mcmc/integrators.h"
-#include "render/scene/scene.h"
-#include "render/scene/scene_reader.h"
+#include "image_check.h"
+#include "mcmc/integrator_choice.h"
 
 namespace h2mc {
 namespace {
@@ -82,26 +81,13 @@ TEST(DirectLighting, SharesMakeTheVarianceLeast) {
 }
 
 long long directSamples(const std::string& name) {
-  std::vector<IntegratorPlugin> plugins;
-  for (const IntegratorFactory& factory : allIntegrators()) plugins.push_back(factory.plugin);
-  ReadOptions options;
-  options.integrators = plugins;
-  options.width = 32;
-  options.height = 24;
-  const Scene scene =
-      readScene(std::string(H2MC_SOURCE_DIR) + "/scenes/" + name + "/" + name + ".xml", options);
+  const Scene scene = test::readTestScene(
+      std::string(H2MC_SOURCE_DIR) + "/scenes/" + name + "/" + name + ".xml", 32, 24);
   RenderRequest request;
   request.budget.mutationsPerPixel = 64;
-  for (const IntegratorFactory& factory : allIntegrators())
-    if (factory.plugin.name == "mmlt") {
-      OptionSet set(factory.plugin);
-      set.set("chains", "32");
-      set.set("bootstrapSamples", "4000");
-      return factory.create(set)
-          ->render(scene, request)
-          .statistics["direct lighting"]["samples per pixel"];
-    }
-  return 0;
+  return chooseIntegrator("mmlt:chains=32,bootstrapSamples=4000", scene)
+      .integrator->render(scene, request)
+      .statistics["direct lighting"]["samples per pixel"];
 }
 
 // Lamps seen in glossy plates are all that is noisy in the one; the other's caustics need the chains.

@@ -4,9 +4,8 @@
 #include <chrono>
 #include <thread>
 
-#include "mcmc/integrators.h"
+#include "image_check.h"
 #include "render/integrator/parallel_rounds.h"
-#include "render/scene/scene_reader.h"
 
 namespace h2mc {
 namespace {
@@ -72,13 +71,7 @@ TEST(Rounds, NoMarksAfterAnInterruption) {
 class Marks : public ::testing::TestWithParam<const char*> {
  protected:
   static Scene ring() {
-    std::vector<IntegratorPlugin> plugins;
-    for (const IntegratorFactory& factory : allIntegrators()) plugins.push_back(factory.plugin);
-    ReadOptions options;
-    options.integrators = plugins;
-    options.width = 24;
-    options.height = 18;
-    return readScene(H2MC_SOURCE_DIR "/scenes/ring/ring.xml", options);
+    return test::readTestScene(H2MC_SOURCE_DIR "/scenes/ring/ring.xml", 24, 18);
   }
 
   static RenderResult render(const Scene& scene, const RenderRequest& request, int direct) {
