@@ -63,6 +63,9 @@ class Composition {
   }
   /// log(sum over i of exp(c z_i)) / c without overflow; count >= 1, c > 0.
   Variable logSumExp(const Variable* z, int count, T c);
+  /// The same of the two (a + b) and z, plus `more`. `more` may be none(), and so may a or b, which leaves
+  /// z alone, and z, which leaves a + b: none() if nothing is left.
+  Variable logSumExpOfSum(Variable a, Variable b, Variable z, Variable more, T c);
 
   /// Writes the gradient (coordinates() numbers) and the Hessian's lower triangle, row by row.
   void differentiate(Variable result, T* gradient, T* hessian);
@@ -84,11 +87,11 @@ class Composition {
     static Span nothing() { return {1 << 30, 0}; }
   };
   struct Node {
-    enum Kind { kStep, kLinear, kLogSumExp } kind;
+    enum Kind { kStep, kLinear, kLogSumExp, kLogSumExpOfSum } kind;
     Variable first;          // of those that it makes
     int count;               // how many
     int inputs, inputCount;  // in terms_
-    T curvature;             // of kLogSumExp: c
+    T curvature;             // of log-sum-exp: c
     std::size_t duals;       // of kStep: in kept_
     void (Composition::*backward)(const Node&);
   };
@@ -132,6 +135,8 @@ class Composition {
 
   Variable finishLinear(Node& node);
   void linearBackward(const Node& node);
+  // hessian += sum over i of scales[i] rows[i] rows[i]^T, rows in scratch_ one after the other.
+  void addProducts(const T* scales, int count, const Span& span);
   template <int M>
   void stepBackward(const Node& node);
   template <int M>
@@ -224,6 +229,28 @@ auto Composition<T>::logSumExp(const Variable* z, int count, T c) -> Variable {
 }
 
 template <class T>
+auto Composition<T>::logSumExpOfSum(Variable a, Variable b, Variable z, Variable more, T c)
+    -> Variable {
+  if (a == none() || b == none()) return z == none() ? none() : sum(z, more);
+  if (z == none()) return sum(sum(a, b), more);
+  Node node{Node::kLogSumExpOfSum, count_, 1, static_cast<int>(terms_.size()), 3, c, 0, nullptr};
+  // The weights from the smaller one over the larger.
+  const T both = value(a) + value(b), other = value(z),
+          ratio = std::exp(-c * std::abs(both - other));
+  const T larger = T(1) / (T(1) + ratio), smaller = ratio * larger;
+  const T weight = both > other ? larger : smaller;
+  terms_.insert(terms_.end(), {{a, weight}, {b, weight}, {z, both > other ? smaller : larger}});
+  if (more != none()) {
+    terms_.push_back({more, T(1)});
+    node.inputCount = 4;
+  }
+  const Variable result = finishLinear(node);
+  values_[at(result)] = std::max(both, other) + std::log1p(ratio) / c;
+  if (more != none()) values_[at(result)] += value(more);
+  return result;
+}
+
+template <class T>
 auto Composition<T>::finishLinear(Node& node) -> Variable {
   const Term* const terms = terms_.data() + node.inputs;
   Span span = Span::nothing();
@@ -312,7 +339,7 @@ void Composition<T>::stepBackward(const Node& node) {
 }
 
 // A weighted sum, and what makes log-sum-exp curved: hessian += scale d d^T for each term, with d its
-// row's difference from the result's.
+// row's difference from the result's; of two terms, once with their difference.
 template <class T>
 void Composition<T>::linearBackward(const Node& node) {
   const T adjoint = adjoints_[at(node.first)];
@@ -320,24 +347,55 @@ void Composition<T>::linearBackward(const Node& node) {
   const Term* const terms = terms_.data() + node.inputs;
   for (int i = 0; i < node.inputCount; ++i)
     adjoints_[at(terms[i].variable)] += adjoint * terms[i].weight;
-  if (node.kind != Node::kLogSumExp) return;
-  const Lane* const mean = row(node.first);
+  if (node.kind == Node::kLinear) return;
   const Span span = spanOf(node.first);
-  scratch_.resize(at(stride_));
-  for (int i = 0; i < node.inputCount; ++i) {
-    const T scale = adjoint * node.curvature * terms[i].weight;
-    if (scale == T(0)) continue;
-    const Lane* const in = row(terms[i].variable);
+  const T curvature = adjoint * node.curvature;
+  if (node.kind == Node::kLogSumExpOfSum) {
+    const T scale = curvature * terms[0].weight * terms[2].weight;
+    if (scale == T(0)) return;
+    scratch_.resize(at(stride_));
+    const Lane *const a = row(terms[0].variable), *const b = row(terms[1].variable),
+                      *const z = row(terms[2].variable);
     withStride([&](auto stride) {
-      Lane* const d = scratch_.data();
-      for (int k = 0; k < stride; ++k) d[k] = in[k] - mean[k];
-      for (int a = span.begin; a < span.end; ++a) {
-        const T factor = scale * d[a / kLanes][a % kLanes];
-        Lane* const h = hessian_.data() + a * stride;
-        for (int k = 0; k <= a / kLanes; ++k) h[k] += factor * d[k];
-      }
+      for (int k = 0; k < stride; ++k) scratch_[at(k)] = a[k] + b[k] - z[k];
     });
+    addProducts(&scale, 1, span);
+    return;
   }
+  constexpr int kAtOnce = 4;
+  scratch_.resize(at(kAtOnce * stride_));
+  const Lane* const mean = row(node.first);
+  T scales[kAtOnce];
+  int count = 0;
+  for (int i = 0; i < node.inputCount; ++i) {
+    const T scale = curvature * terms[i].weight;
+    if (scale != T(0)) {
+      const Lane* const in = row(terms[i].variable);
+      for (int k = 0; k < stride_; ++k) scratch_[at(count * stride_ + k)] = in[k] - mean[k];
+      scales[count++] = scale;
+    }
+    if (count > 0 && (count == kAtOnce || i + 1 == node.inputCount)) {
+      addProducts(scales, count, span);
+      count = 0;
+    }
+  }
+}
+
+template <class T>
+void Composition<T>::addProducts(const T* scales, int count, const Span& span) {
+  const Lane* const d = scratch_.data();
+  withStride([&](auto stride) {
+    for (int a = span.begin; a < span.end; ++a) {
+      Lane* const h = hessian_.data() + a * stride;
+      const int last = stride == 1 ? 0 : a / kLanes;
+      for (int k = 0; k <= last; ++k) {
+        Lane sum = h[k];
+        for (int i = 0; i < count; ++i)
+          sum += scales[i] * d[i * stride + last][a % kLanes] * d[i * stride + k];
+        h[k] = sum;
+      }
+    }
+  });
 }
 
 }  // namespace h2mc::ad

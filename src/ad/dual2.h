@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <type_traits>
 
@@ -24,12 +23,12 @@ struct Dual2 {
   static_assert(std::is_same_v<T, float> || std::is_same_v<T, double>);
   static_assert(N >= 1);
   using Scalar = T;
-  using Layout = typename detail::LayoutOf<T, N>::type;
+  using Layout = detail::TriangleLayout<T, N>;
   using Vec = typename Layout::Vec;
   static constexpr int kSize = N;
 
   Vec h[Layout::kHessian];   ///< lower triangle of the Hessian, as Layout has it
-  Vec g[Layout::kGradient];  ///< gradient; lanes from N on are zero
+  Vec g[Layout::kGradient];  ///< gradient, the last vector's as often as it fits
   T v;                       ///< value
 
   Dual2() = default;
@@ -40,7 +39,7 @@ struct Dual2 {
   /// The coordinate `index` (0 <= index < N) at `value`.
   static H2MC_AD_INLINE Dual2 variable(T value, int index) {
     Dual2 r(value);
-    r.g[index / Layout::kWidth][index % Layout::kWidth] = T(1);
+    r.setGradient(index, T(1));
     return r;
   }
 
@@ -50,19 +49,23 @@ struct Dual2 {
     static_assert(Offset >= 0 && M + Offset <= N);
     using From = typename Dual2<T, M>::Layout;
     Dual2 r(a.v);
-    const auto copy = [](Vec* to, int toLane, const auto* from, int fromLane,
-                         int count) H2MC_AD_LAMBDA {
-      std::memcpy(reinterpret_cast<char*>(to) + toLane * sizeof(T),
-                  reinterpret_cast<const char*>(from) + fromLane * sizeof(T), count * sizeof(T));
-    };
-    copy(r.g, Offset, a.g, 0, M);
-    if constexpr (Offset == 0 && detail::packs<T, M>() && detail::packs<T, N>()) {
-      // Packed row by row, the smaller triangle is the larger one's beginning.
-      copy(r.h, 0, a.h, 0, M * (M + 1) / 2);
-      return r;
+    if constexpr (Layout::kGradient == 1 && From::kGradient == 1) {
+      // By constant shuffles: what is written lane by lane can't be read as a vector soon after.
+      using Table = detail::LiftTable<From, Layout, M, N, Offset>;
+      r.g[0] = Table::gradient(a.g[0]);
+      detail::unroll<Layout::kHessian>([&](auto to) H2MC_AD_LAMBDA {
+        constexpr int kTo = to;
+        detail::unroll<From::kHessian>([&](auto from) H2MC_AD_LAMBDA {
+          if constexpr (Table::reads(kTo, from))
+            r.h[kTo] += Table::template triangle<kTo, from>(a.h[from]);
+        });
+      });
+    } else {
+      for (int i = 0; i < M; ++i) {
+        r.setGradient(i + Offset, a.gradient(i));
+        for (int j = 0; j <= i; ++j) r.setHessian(i + Offset, j + Offset, a.hessian(i, j));
+      }
     }
-    for (int i = 0; i < M; ++i)
-      copy(r.h, Layout::position(i + Offset, Offset), a.h, From::position(i, 0), i + 1);
     return r;
   }
 
@@ -73,7 +76,11 @@ struct Dual2 {
     const int p = i < j ? Layout::position(j, i) : Layout::position(i, j);
     return h[p / Layout::kWidth][p % Layout::kWidth];
   }
-  H2MC_AD_INLINE void setGradient(int i, T x) { g[i / Layout::kWidth][i % Layout::kWidth] = x; }
+  H2MC_AD_INLINE void setGradient(int i, T x) {
+    const int block = i / Layout::kWidth, lane = i % Layout::kWidth;
+    const int step = block == Layout::kGradient - 1 ? Layout::kRepeat : Layout::kWidth;
+    for (int k = lane; k < Layout::kWidth; k += step) g[block][k] = x;
+  }
   /// Sets entries (i, j) and (j, i).
   H2MC_AD_INLINE void setHessian(int i, int j, T x) {
     const int p = i < j ? Layout::position(j, i) : Layout::position(i, j);

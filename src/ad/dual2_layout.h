@@ -4,8 +4,12 @@
 // ("chunks") and can spread a gradient g over a chunk in two ways: row(g) puts g[i] and column(g)
 // puts g[j] in the lane of entry (i, j). An outer product is then row(a) * column(b).
 //
-//  - PackedLayout: the triangle row by row without gaps; row and column are constant shuffles.
-//  - RowLayout:    each row starts a new vector; row is a broadcast, column is the gradient itself.
+// The gradient is cut into blocks, one for each of its vectors, and the triangle into products of blocks:
+//
+//  - A block with itself: each lane's entries belong to the lane's own coordinate, so that row is the
+//    gradient itself and column one constant shuffle. Each pair of coordinates is given to the one or
+//    the other as its row, so that no lane is wasted.
+//  - A block with an earlier one: row by row; row is a broadcast, column the gradient itself.
 //
 // Lanes that hold no entry repeat what some entry does or stay zero, so they are finite wherever
 // the entries are, and no operation moves them into an entry.
@@ -58,12 +62,12 @@ constexpr int vectorWidth(int entries) {
   return width;
 }
 
-/// The same, or half of a register of 64 bytes where two or three halves hold the entries: the gradient of
-/// a triangle that is stored so, and its shuffles, are half as wide.
+/// Lanes of the vectors for N coordinates: the smallest that holds the gradient, or 32 bytes where that is
+/// too small for the triangle. Measured faster than whole registers and than 16 bytes.
 template <class T>
-constexpr int narrowWidth(int entries) {
-  const int width = vectorWidth<T>(entries), half = 32 / int(sizeof(T));
-  return width > half && divideUp(entries, half) <= 3 ? half : width;
+constexpr int layoutWidth(int n) {
+  const int gradient = vectorWidth<T>(n), triangle = vectorWidth<T>(n * (n + 1) / 2);
+  return gradient * int(sizeof(T)) < 32 && triangle > gradient ? 2 * gradient : gradient;
 }
 
 /// Calls f(std::integral_constant<int, 0>) ... f(std::integral_constant<int, Count - 1>), unrolled.
@@ -75,110 +79,222 @@ H2MC_AD_INLINE void unroll(F&& f) {
   (std::make_integer_sequence<int, Count>{});
 }
 
+/// The square of a block of N coordinates in vectors of W >= N lanes, lane L holding entries (L mod N, j).
+template <int N, int W>
+class Orientation {
+  static_assert(0 < N && N <= W);
+  static constexpr int kLeast = divideUp(N * (N + 1) / 2, W);
+  struct Table {
+    int chunks = 0;                  // 0: the entries do not fit
+    int position[N][N] = {};         // of entry (i, j), for both orders, in lanes from the first
+    int column[kLeast + 1][W] = {};  // of a lane's entry, one of the diagonal where there is none
+  };
+
+  // Fills `chunks` vectors; with `diagonalFirst` the first holds entries (i, i) alone, whose column
+  // is their row. Pairs in the order of their distance around a circle, each to the coordinate that has
+  // more lanes left.
+  static constexpr Table fill(int chunks, bool diagonalFirst) {
+    Table t;
+    for (auto& chunk : t.column)
+      for (int lane = 0; lane < W; ++lane) chunk[lane] = lane % N;
+    int next[N] = {}, left[N] = {};  // a coordinate's next free lane, and how many it has
+    const auto advance = [&](int i) {
+      const bool sameVector = next[i] % W + N < W;
+      next[i] = sameVector ? next[i] + N : (next[i] / W + 1) * W + i;
+      --left[i];
+    };
+    for (int i = 0; i < N; ++i) {
+      t.position[i][i] = next[i] = i;
+      left[i] = chunks * divideUp(W - i, N);
+      do advance(i);
+      while (diagonalFirst && next[i] < W);
+    }
+    for (int distance = 1; 2 * distance <= N; ++distance)
+      for (int i = 0; i < (2 * distance == N ? distance : N); ++i) {
+        const int j = (i + distance) % N;
+        const int row = left[i] >= left[j] ? i : j;
+        if (left[row] <= 0) return {};
+        t.column[next[row] / W][next[row] % W] = row == i ? j : i;
+        t.position[i][j] = t.position[j][i] = next[row];
+        advance(row);
+      }
+    t.chunks = chunks;
+    return t;
+  }
+  static constexpr Table best() {
+    for (const bool diagonalFirst : {true, false})
+      if (const Table t = fill(kLeast, diagonalFirst); t.chunks > 0) return t;
+    return fill(kLeast + 1, true);
+  }
+  static constexpr Table kTable = best();
+  static_assert(kTable.chunks > 0);
+
+ public:
+  static constexpr int kChunks = kTable.chunks;
+  static constexpr int position(int i, int j) { return kTable.position[i][j]; }
+  static constexpr int column(int chunk, int lane) { return kTable.column[chunk][lane]; }
+  /// Whether column(chunk, lane) is lane mod N throughout.
+  static constexpr bool isDiagonal(int chunk) {
+    for (int lane = 0; lane < W; ++lane)
+      if (column(chunk, lane) != lane % N) return false;
+    return true;
+  }
+};
+
 template <class T, int N>
-struct PackedLayout {
-  static constexpr int kEntries = N * (N + 1) / 2;
-  static constexpr int kWidth = narrowWidth<T>(kEntries);
-  static constexpr int kGradient = divideUp(N, kWidth);        // vectors of the gradient
-  static constexpr int kHessian = divideUp(kEntries, kWidth);  // vectors of the triangle
+struct TriangleLayout {
+  static constexpr int kWidth = layoutWidth<T>(N);
+  static constexpr int kGradient = divideUp(N, kWidth);  // vectors of the gradient, one a block
   using Vec = typename VectorOf<T, kWidth>::type;
+
+ private:
+  static constexpr int kLast = kGradient - 1;  // the last block, of 1 to kWidth coordinates
+  static constexpr int kLastSize = N - kLast * kWidth;
+  using Whole = Orientation<kWidth, kWidth>;
+  using Last = Orientation<kLastSize, kWidth>;
+  template <int Block>
+  using OrientationOf = std::conditional_t<(Block < kLast), Whole, Last>;
+  template <int I>
+  using Int = std::integral_constant<int, I>;
+  static constexpr int kMostUnrolled = 20;
+  static constexpr int squareSize(int block) {
+    return block < kLast ? Whole::kChunks : Last::kChunks;
+  }
+  // A block's square comes first, then its rows, each with one vector for every earlier block.
+  static constexpr int firstOfSquare(int block) {
+    return block * Whole::kChunks + kWidth * (block * (block - 1) / 2);
+  }
+  static constexpr int firstOfRow(int i) {
+    const int block = i / kWidth;
+    return firstOfSquare(block) + squareSize(block) + i % kWidth * block;
+  }
+
+ public:
+  static constexpr int kHessian = firstOfRow(N - 1) + kLast;  // vectors of the triangle
+  /// The gradient's lanes of the last block's coordinate i are i, i + kRepeat, ... to the vector's end.
+  static constexpr int kRepeat = kLastSize;
 
   /// Where entry (i, j), j <= i, lies, in lanes from the first.
-  static constexpr int position(int i, int j) { return i * (i + 1) / 2 + j; }
-  static constexpr int rowAt(int position) {
-    int i = 0;
-    while (PackedLayout::position(i + 1, 0) <= position) ++i;
-    return i;
+  static constexpr int position(int i, int j) {
+    const int block = i / kWidth, r = i % kWidth, c = j % kWidth;
+    if (j / kWidth < block) return (firstOfRow(i) + j / kWidth) * kWidth + c;
+    return firstOfSquare(block) * kWidth +
+           (block < kLast ? Whole::position(r, c) : Last::position(r % kLastSize, c % kLastSize));
   }
-  static constexpr bool holdsEntry(int position) { return position < kEntries; }
 
-  /// The chunk of the triangle with index C.
-  template <int C>
-  struct Chunk {
-    static constexpr int index = C;
-    static H2MC_AD_INLINE Vec row(const Vec* g) { return spread<true>(g, kLanes); }
-    static H2MC_AD_INLINE Vec column(const Vec* g) { return spread<false>(g, kLanes); }
+  // Chunks' numbers are constants of their own type where chunks are unrolled, int where they are not.
+  /// A block with itself.
+  template <class Orient, int C, class Index, class Block>
+  struct SquareChunk {
+    Index index;
+    Block block;
+    H2MC_AD_INLINE Vec row(const Vec* g) const { return g[block]; }
+    H2MC_AD_INLINE Vec column(const Vec* g) const {
+      if constexpr (Orient::isDiagonal(C)) return g[block];
+      return spread(g[block], std::make_integer_sequence<int, kWidth>{});
+    }
 
    private:
-    static constexpr std::make_integer_sequence<int, kWidth> kLanes{};
-    // Lanes past the last entry repeat entry (0, 0).
-    static constexpr int source(int position, bool wantRow) {
-      if (!holdsEntry(position)) return 0;
-      const int i = rowAt(position);
-      return wantRow ? i : position - PackedLayout::position(i, 0);
-    }
-    template <bool WantRow, int... L>
-    static H2MC_AD_INLINE Vec spread(const Vec* g, std::integer_sequence<int, L...>) {
-      return __builtin_shufflevector(g[0], g[kGradient - 1], source(C * kWidth + L, WantRow)...);
+    template <int... L>
+    static H2MC_AD_INLINE Vec spread(const Vec& g, std::integer_sequence<int, L...>) {
+      return __builtin_shufflevector(g, g, Orient::column(C, L)...);
     }
   };
-
-  template <class F>
-  static H2MC_AD_INLINE void forEachChunk(F&& f) {
-    unroll<kHessian>([&](auto c) H2MC_AD_LAMBDA { f(Chunk<c>{}); });
-  }
-};
-
-template <class T, int N>
-struct RowLayout {
-  // A row that one register holds stays whole.
-  static constexpr int kWidth = N > vectorWidth<T>(N) ? narrowWidth<T>(N) : vectorWidth<T>(N);
-  static constexpr int firstChunk(int row) {
-    const int q = row / kWidth, r = row % kWidth;
-    return kWidth * q * (q + 1) / 2 + r * (q + 1);
-  }
-  static constexpr int kGradient = divideUp(N, kWidth);
-  static constexpr int kHessian = firstChunk(N);
-  using Vec = typename VectorOf<T, kWidth>::type;
-
-  static constexpr int position(int i, int j) { return firstChunk(i) * kWidth + j; }
-  static constexpr int rowAt(int position) {
-    int i = 0;
-    while (RowLayout::position(i + 1, 0) <= position) ++i;
-    return i;
-  }
-  static constexpr bool holdsEntry(int position) {
-    return position - RowLayout::position(rowAt(position), 0) <= rowAt(position);
-  }
-
-  template <int C>
-  struct Chunk {
-    static constexpr int index = C;
-    static constexpr int kRow = rowAt(C * kWidth);
-    static H2MC_AD_INLINE T row(const Vec* g) { return g[kRow / kWidth][kRow % kWidth]; }
-    static H2MC_AD_INLINE Vec column(const Vec* g) { return g[C - firstChunk(kRow)]; }
-  };
-  struct LoopChunk {
-    int index, rowIndex, columnChunk;
-    H2MC_AD_INLINE T row(const Vec* g) const { return g[rowIndex / kWidth][rowIndex % kWidth]; }
-    H2MC_AD_INLINE Vec column(const Vec* g) const { return g[columnChunk]; }
+  /// One row of a block with an earlier one.
+  template <class Index, class Row, class Block>
+  struct RowChunk {
+    Index index;
+    Row i;
+    Block block;
+    H2MC_AD_INLINE T row(const Vec* g) const { return g[i / kWidth][i % kWidth]; }
+    H2MC_AD_INLINE Vec column(const Vec* g) const { return g[block]; }
   };
 
-  // Long triangles are looped over: unrolled, each operation would be thousands of instructions.
+  /// Calls f with every chunk. Long triangles are looped over: unrolled, each operation would be
+  /// thousands of instructions.
   template <class F>
   static H2MC_AD_INLINE void forEachChunk(F&& f) {
-    if constexpr (kHessian <= 8) {
-      unroll<kHessian>([&](auto c) H2MC_AD_LAMBDA { f(Chunk<c>{}); });
+    if constexpr (kHessian <= kMostUnrolled) {
+      unroll<kGradient>([&](auto block) H2MC_AD_LAMBDA {
+        constexpr int kBlock = block;
+        unroll<squareSize(kBlock)>([&](auto c) H2MC_AD_LAMBDA {
+          using Index = Int<firstOfSquare(kBlock) + c>;
+          f(SquareChunk<OrientationOf<kBlock>, c, Index, Int<kBlock>>{});
+        });
+        unroll<(kBlock < kLast ? kWidth : kLastSize)>([&](auto i) H2MC_AD_LAMBDA {
+          constexpr int kRow = kBlock * kWidth + i;
+          unroll<kBlock>([&](auto k) H2MC_AD_LAMBDA {
+            f(RowChunk<Int<firstOfRow(kRow) + k>, Int<kRow>, Int<k>>{});
+          });
+        });
+      });
     } else {
-      for (int i = 0, index = 0; i < N; ++i)
-        for (int k = 0; k <= i / kWidth; ++k, ++index) f(LoopChunk{index, i, k});
+      for (int block = 0; block < kLast; ++block)
+        unroll<Whole::kChunks>([&](auto c) H2MC_AD_LAMBDA {
+          f(SquareChunk<Whole, c, int, int>{firstOfSquare(block) + c, block});
+        });
+      unroll<Last::kChunks>([&](auto c) H2MC_AD_LAMBDA {
+        f(SquareChunk<Last, c, int, int>{firstOfSquare(kLast) + c, kLast});
+      });
+      for (int i = kWidth; i < N; ++i)
+        for (int k = 0; k < i / kWidth; ++k) f(RowChunk<int, int, int>{firstOfRow(i) + k, i, k});
     }
   }
 };
 
-/// Packed where one shuffle reads the whole gradient, by rows elsewhere: measured faster for every
-/// such N and instruction set.
-template <class T, int N>
-constexpr bool packs() {
-  return N <= 2 * PackedLayout<T, N>::kWidth;
-}
-template <class T, int N>
-struct LayoutOf {
-  using type = RowLayout<T, N>;
-};
-template <class T, int N>
-requires(packs<T, N>()) struct LayoutOf<T, N> {
-  using type = PackedLayout<T, N>;
+/// How vectors of M coordinates become vectors of N, coordinate i becoming i + Offset (Dual2::lift). Both
+/// gradients are single vectors.
+template <class From, class To, int M, int N, int Offset>
+class LiftTable {
+  static constexpr int kWidth = To::kWidth;
+  using Lanes = std::make_integer_sequence<int, kWidth>;
+
+  struct Sources {
+    int of[To::kHessian * kWidth];  // in lanes from the first, -1 for a zero
+  };
+  static constexpr Sources sources() {
+    Sources s{};
+    for (int& source : s.of) source = -1;
+    for (int i = 0; i < M; ++i)
+      for (int j = 0; j <= i; ++j)
+        s.of[To::position(i + Offset, j + Offset)] = From::position(i, j);
+    return s;
+  }
+  static constexpr Sources kSources = sources();
+
+  // Indices into a vector with a zero behind it.
+  static constexpr int triangleIndex(int to, int from, int lane) {
+    const int source = kSources.of[to * kWidth + lane];
+    return source >= 0 && source / From::kWidth == from ? source % From::kWidth : From::kWidth;
+  }
+  static constexpr int gradientIndex(int lane) {
+    const int i = lane % N - Offset;
+    return i >= 0 && i < M ? i : From::kWidth;
+  }
+  template <class V, int... L>
+  static H2MC_AD_INLINE typename To::Vec gradient(const V& g, std::integer_sequence<int, L...>) {
+    return __builtin_shufflevector(g, V{}, gradientIndex(L)...);
+  }
+  template <int I, int K, class V, int... L>
+  static H2MC_AD_INLINE typename To::Vec triangle(const V& h, std::integer_sequence<int, L...>) {
+    return __builtin_shufflevector(h, V{}, triangleIndex(I, K, L)...);
+  }
+
+ public:
+  static H2MC_AD_INLINE typename To::Vec gradient(const typename From::Vec& g) {
+    return gradient(g, Lanes{});
+  }
+  /// Whether vector `to` of the triangle takes anything from vector `from`.
+  static constexpr bool reads(int to, int from) {
+    for (int lane = 0; lane < kWidth; ++lane)
+      if (triangleIndex(to, from, lane) < From::kWidth) return true;
+    return false;
+  }
+  /// What vector I takes from vector K.
+  template <int I, int K>
+  static H2MC_AD_INLINE typename To::Vec triangle(const typename From::Vec& h) {
+    return triangle<I, K>(h, Lanes{});
+  }
 };
 
 }  // namespace h2mc::ad::detail

@@ -148,5 +148,51 @@ TYPED_TEST(AdComposition, OneTermIsItself) {
   EXPECT_EQ(c.sum(c.none(), 0), 0);
 }
 
+// The fused form of what sum() and logSumExp() make in three steps.
+TYPED_TEST(AdComposition, LogSumExpOfSum) {
+  using T = TypeParam;
+  const T tolerance = 50 * std::numeric_limits<T>::epsilon();
+  std::mt19937 random(2);
+  std::uniform_real_distribution<T> uniform(T(-1), T(1));
+  Composition<T> c;
+  for (const int n : {4, 30}) {
+    std::vector<T> u(static_cast<std::size_t>(n));
+    // Near each other, and so far apart that the smaller one does not count.
+    for (const T distance : {T(1), T(200)}) {
+      for (T& x : u) x = uniform(random);
+      u[3] *= distance;
+      for (int absent = 0; absent < 16; ++absent) {
+        const auto evaluate = [&](bool fused, T* gradient, T* hessian) {
+          c.begin(u.data(), n);
+          // Functions of all coordinates, none of them a coordinate.
+          int v[4];
+          for (int i = 0; i < 4; ++i) {
+            v[i] = c.linear({{i, T(2)}, {n - 1, T(1 + i)}});
+            if (absent >> i & 1) v[i] = c.none();
+          }
+          int result = c.none();
+          if (fused) {
+            result = c.logSumExpOfSum(v[0], v[1], v[3], v[2], T(2));
+          } else {
+            int z[2], count = 0;
+            if (v[0] != c.none() && v[1] != c.none()) z[count++] = c.sum(v[0], v[1]);
+            if (v[3] != c.none()) z[count++] = v[3];
+            if (count > 0) result = c.sum(c.logSumExp(z, count, T(2)), v[2]);
+          }
+          if (result == c.none()) return T(0);
+          c.differentiate(result, gradient, hessian);
+          return c.value(result);
+        };
+        const auto size = static_cast<std::size_t>(n);
+        std::vector<T> g(size), h(size * (size + 1) / 2), wantG(g), wantH(h);
+        const T value = evaluate(true, g.data(), h.data());
+        EXPECT_NEAR(value, evaluate(false, wantG.data(), wantH.data()), 10 * distance * tolerance);
+        for (std::size_t i = 0; i < g.size(); ++i) EXPECT_NEAR(g[i], wantG[i], 10 * tolerance);
+        for (std::size_t i = 0; i < h.size(); ++i) EXPECT_NEAR(h[i], wantH[i], 100 * tolerance);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace h2mc::ad
