@@ -29,14 +29,6 @@ std::vector<Shape> everyShape() {
   return shapes;
 }
 
-template <class T>
-std::vector<T> outputs(const SurfacePoint<T>& s) {
-  std::vector<T> out;
-  for (const Vec3<T>& v : {s.p, s.ng, s.shading.s, s.shading.t, s.shading.n}) append(out, v);
-  append(out, s.uv);
-  return out;
-}
-
 TEST(SurfaceDerivatives, Intersection) {
   const std::vector<Shape> shapes = everyShape();
   Random random(1, 1, 1);
@@ -56,7 +48,7 @@ TEST(SurfaceDerivatives, Intersection) {
         const Vec3<T> origin = Vec3<T>(x[0], x[1], x[2]) + plain<T>(o);
         const Vec3<T> direction =
             ad::normalize(plain<T>(frame.s) * x[3] + plain<T>(frame.t) * x[4] + plain<T>(d));
-        return outputs<T>(intersectPrimitive<T>(shapes, id, origin, direction));
+        return test::outputs<T>(intersectPrimitive<T>(shapes, id, origin, direction));
       };
       const double share = expectDerivatives<5>(f, {0, 0, 0, 0, 0});
       EXPECT_GT(share, 0.8) << shapes[i].name << " " << i;
@@ -81,7 +73,7 @@ TEST(SurfaceDerivatives, Sampling) {
       const std::array<double, 2> u{0.02 + 0.96 * random.uniformDouble(),
                                     0.02 + 0.96 * random.uniformDouble()};
       const auto f = [&]<class T>(const std::array<T, 2>& x) {
-        return outputs<T>(samplePrimitive<T>(shapes, {i, 0}, x[0], x[1]));
+        return test::outputs<T>(samplePrimitive<T>(shapes, {i, 0}, x[0], x[1]));
       };
       EXPECT_GT(expectDerivatives<2>(f, u), 0.8) << i;
       using D = ad::Dual2<double, 2>;
@@ -102,7 +94,7 @@ TEST(SurfaceDerivatives, FiniteAtTheBorder) {
         using D = ad::Dual2<float, 2>;
         const SurfacePoint<D> s =
             samplePrimitive<D>(shapes, {i, 0}, D::variable(u0, 0), D::variable(u1, 1));
-        for (const D& x : outputs<D>(s))
+        for (const D& x : test::outputs<D>(s))
           EXPECT_TRUE(isFinite(x)) << shapes[i].name << " " << i << " at " << u0 << ", " << u1;
       }
 }

@@ -60,18 +60,6 @@ std::vector<Shape> movingShapes() {
           {"disk", movingDisk}};
 }
 
-template <class T>
-std::vector<T> outputs(const SurfacePoint<T>& s) {
-  std::vector<T> r;
-  append(r, s.p);
-  append(r, s.ng);
-  append(r, s.shading.s);
-  append(r, s.shading.t);
-  append(r, s.shading.n);
-  append(r, s.uv);
-  return r;
-}
-
 // The sphere's coordinates are not those of the moment only: a triangle's normals and frames depend on
 // time through every corner.
 TEST(MotionDerivatives, Intersection) {
@@ -96,7 +84,7 @@ TEST(MotionDerivatives, Intersection) {
         const Vec3<S> o(from), d(along);
         const Vec3<T> origin{x[0] + o.x, T(o.y), T(o.z)};
         const Vec3<T> direction = ad::normalize(Vec3<T>(T(d.x), x[1] + d.y, x[2] + d.z));
-        return outputs<T>(intersectPrimitive<T>(shapes, id, origin, direction, &x[3]));
+        return test::outputs<T>(intersectPrimitive<T>(shapes, id, origin, direction, &x[3]));
       };
       EXPECT_GT(expectDerivatives<4>(f, {0, 0, 0, time}, 1e-3, 5e-2), 0.8);
     }
@@ -114,7 +102,7 @@ TEST(MotionDerivatives, SamplingAndArea) {
                                     0.05 + 0.9 * random.uniformDouble(),
                                     (0.1 + 0.8 * random.uniformDouble() + k % 3) / 3};
       const auto f = [&]<class T>(const std::array<T, 3>& u) {
-        std::vector<T> r = outputs<T>(samplePrimitive<T>(shapes, {i, 0}, u[0], u[1], &u[2]));
+        std::vector<T> r = test::outputs<T>(samplePrimitive<T>(shapes, {i, 0}, u[0], u[1], &u[2]));
         r.push_back(primitiveAreaAt<T>(shapes[i], 0, &u[2]));
         return r;
       };

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "ad/finite_difference.h"
-#include "render/core/types.h"
+#include "render/geometry/surface_point.h"
 
 namespace h2mc::test {
 
@@ -22,6 +22,25 @@ void append(std::vector<T>& to, const Vec2<T>& x) {
 template <class T>
 void append(std::vector<T>& to, const Vec3<T>& x) {
   to.insert(to.end(), {x.x, x.y, x.z});
+}
+// Everything that depends on where the point is; frames by what they do.
+template <class T>
+void append(std::vector<T>& to, const SurfacePoint<T>& s) {
+  append(to, s.p);
+  append(to, s.ng);
+  const T one(1), zero(0);
+  append(to, s.shading.toWorld({one, zero, zero}));
+  append(to, s.shading.toWorld({zero, one, zero}));
+  append(to, s.shading.toWorld({zero, zero, one}));
+  append(to, s.shading.toLocal({one, zero, zero}));
+  append(to, s.cosine({one, zero, one}));
+  append(to, s.uv);
+}
+template <class T>
+std::vector<T> outputs(const SurfacePoint<T>& s) {
+  std::vector<T> r;
+  append(r, s);
+  return r;
 }
 
 // f.template operator()<T>(const std::array<T, N>&) returns a std::vector<T>, always of one length.

@@ -50,13 +50,11 @@ BsdfValue<T> evaluateMaterial(std::span<const Bsdf> bsdfs, const Material& mater
   const auto inner = [&](const Vec3<T>& i, const Vec3<T>& o) {
     return std::visit([&](const auto& b) { return b.template evaluate<T>(uv, i, o); }, *bsdf);
   };
-  BsdfValue<T> r = back ? inner(flipped(wi), flipped(wo)) : inner(wi, wo);
-  if (material.opacity) {
-    const Rgb<T> opacity = evaluate<T>(*material.opacity, uv);
-    const T p = detail::opacityProbability(opacity);
-    r = {r.value * opacity, r.pdf * p, r.pdfReverse * p};
-  }
-  return r;
+  if (!material.opacity) return back ? inner(flipped(wi), flipped(wo)) : inner(wi, wo);
+  const BsdfValue<T> r = back ? inner(flipped(wi), flipped(wo)) : inner(wi, wo);
+  const Rgb<T> opacity = evaluate<T>(*material.opacity, uv);
+  const T p = detail::opacityProbability(opacity);
+  return {r.value * opacity, r.pdf * p, r.pdfReverse * p};
 }
 
 // Where wo was drawn for wi. A BSDF without a formula of its own for this has that of evaluate().
@@ -79,15 +77,14 @@ SampledBsdf<T> sampledMaterial(std::span<const Bsdf> bsdfs, const Material& mate
         },
         *bsdf);
   };
+  if (!material.opacity) return back ? inner(flipped(wi), flipped(wo)) : inner(wi, wo);
   SampledBsdf<T> r = back ? inner(flipped(wi), flipped(wo)) : inner(wi, wo);
-  if (material.opacity) {
-    const Rgb<T> opacity = evaluate<T>(*material.opacity, uv);
-    const T p = detail::opacityProbability(opacity);
-    if (!(value(p) > 0)) return SampledBsdf<T>::zero();
-    r.weight = r.weight * opacity * T(Scalar<T>(1) / p);
-    r.pdf = r.pdf * p;
-    r.pdfReverse = r.pdfReverse * p;
-  }
+  const Rgb<T> opacity = evaluate<T>(*material.opacity, uv);
+  const T p = detail::opacityProbability(opacity);
+  if (!(value(p) > 0)) return SampledBsdf<T>::zero();
+  r.weight = r.weight * opacity * T(Scalar<T>(1) / p);
+  r.pdf = r.pdf * p;
+  r.pdfReverse = r.pdfReverse * p;
   return r;
 }
 

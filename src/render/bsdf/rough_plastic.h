@@ -29,11 +29,11 @@ struct RoughPlastic {
   template <class T>
   BsdfValue<T> evaluate(const Vec2<T>& uv, const Vec3<T>& wi, const Vec3<T>& wo) const {
     using S = Scalar<T>;
-    if (!(value(wi.z) > 0 && value(wo.z) > 0)) return BsdfValue<T>::zero();
+    BsdfValue<T> r = BsdfValue<T>::zero();
+    if (!(value(wi.z) > 0 && value(wo.z) > 0)) return r;
     const S invPi = kInvPiOf<T>;
     const T ti = transmittance->evaluate(wi.z), to = transmittance->evaluate(wo.z);
     const T di = diffuseProbability(ti), dd = diffuseProbability(to);
-    BsdfValue<T> r;
     r.value = base.modulated<T>(uv, ti * to * wo.z * (invPi * S(base.inverseEta2)));
     r.pdf = di * wo.z * invPi;
     r.pdfReverse = dd * wi.z * invPi;
@@ -49,16 +49,16 @@ struct RoughPlastic {
   template <class T>
   SampledBsdf<T> sampled(const Vec2<T>& uv, const Vec3<T>& wi, const Vec3<T>& wo) const {
     using S = Scalar<T>;
-    if (!(value(wi.z) > 0 && value(wo.z) > 0)) return SampledBsdf<T>::zero();
+    SampledBsdf<T> r = SampledBsdf<T>::zero();
+    if (!(value(wi.z) > 0 && value(wo.z) > 0)) return r;
     const S invPi = kInvPiOf<T>;
     const T ti = transmittance->evaluate(wi.z), to = transmittance->evaluate(wo.z);
     const T di = diffuseProbability(ti), dd = diffuseProbability(to);
     const T ds = S(1) - di, cosine = wo.z * invPi;
     const T inner = ti * to * S(base.inverseEta2);
     const FacetReflection<T> coat = facets.reflect(wi, wo);
-    SampledBsdf<T> r;
     r.pdf = di * cosine + coat.pdf * ds;
-    if (!(value(r.pdf) > 0)) return SampledBsdf<T>::zero();
+    if (!(value(r.pdf) > 0)) return r;
     r.pdfReverse = dd * wi.z * invPi + coat.pdfReverse * (S(1) - dd);
     const MixtureShares<T> shares(cosine, coat.pdf, di, ds);
     r.weight = base.modulated<T>(uv, inner * shares.first);

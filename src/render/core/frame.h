@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "render/core/types.h"
+#include "render/core/safe_math.h"
 
 namespace h2mc {
 
@@ -11,9 +11,37 @@ namespace h2mc {
 template <class T>
 struct Frame {
   Vec3<T> s, t, n;
+  bool constant = false;  // has no derivatives: only the values are of use
 
-  Vec3<T> toLocal(const Vec3<T>& w) const { return {dot(w, s), dot(w, t), dot(w, n)}; }
-  Vec3<T> toWorld(const Vec3<T>& w) const { return s * w.x + t * w.y + n * w.z; }
+  Vec3<T> toLocal(const Vec3<T>& w) const {
+    if constexpr (ad::isDual<T>)
+      if (constant) return {dot(w, value3(s)), dot(w, value3(t)), dot(w, value3(n))};
+    return {dot(w, s), dot(w, t), dot(w, n)};
+  }
+  Vec3<T> toWorld(const Vec3<T>& w) const {
+    if constexpr (ad::isDual<T>) {
+      const auto component = [&](const T& x, const T& y, const T& z) {
+        if (constant) return linear3(w.x, value(x), w.y, value(y), w.z, value(z));
+        return dot3(w.x, x, w.y, y, w.z, z);
+      };
+      return {component(s.x, t.x, n.x), component(s.y, t.y, n.y), component(s.z, t.z, n.z)};
+    } else {
+      return s * w.x + t * w.y + n * w.z;
+    }
+  }
+
+  // Takes over a frame of T, or a plain one: its values alone, derivatives are not even set.
+  template <class P>
+  void assign(const Frame<P>& a) {
+    if constexpr (std::is_same_v<P, T>) {
+      *this = a;
+    } else {
+      constant = true;
+      setValue(s, a.s);
+      setValue(t, a.t);
+      setValue(n, a.n);
+    }
+  }
 
   // Precondition: n is of unit length. Branches on the sign of n.z only, which freezes the
   // tangents' choice at a topology [Duff et al. 2017, "Building an Orthonormal Basis, Revisited"].

@@ -58,15 +58,19 @@ T weighted2(const T& a, const P& s, const T& b, const P& t) {
     return linear2(a, s, b, t);
 }
 
-// The derivatives of a with another value: a more exact one. V: a vector.
+// Gives a, which keeps its derivatives, another value: a more exact one. V: a vector.
 template <class V, class W>
-V withValue(V a, const W& v) {
+void setValue(V& a, const W& v) {
   for (int i = 0; i < V::length(); ++i) {
     if constexpr (ad::isDual<typename V::value_type>)
       a[i].v = v[i];
     else
       a[i] = v[i];
   }
+}
+template <class V, class W>
+V withValue(V a, const W& v) {
+  setValue(a, v);
   return a;
 }
 

@@ -52,12 +52,12 @@ SurfacePoint<T> diskPoint(const DiskView<P>& disk, const T& x, const T& y) {
   const Vec3<P>&ax = disk.axisX, &ay = disk.axisY;
   r.p = {weighted2(x, ax.x, y, ay.x), weighted2(x, ax.y, y, ay.y), weighted2(x, ax.z, y, ay.z)};
   if constexpr (ad::isDual<P>) r.p = r.p + disk.center;
-  r.p = withValue(r.p, Vec3<S>(disk.exactCenter + disk.exactX * static_cast<double>(value(x)) +
-                               disk.exactY * static_cast<double>(value(y))));
+  setValue(r.p, Vec3<S>(disk.exactCenter + disk.exactX * static_cast<double>(value(x)) +
+                        disk.exactY * static_cast<double>(value(y))));
   r.ng = liftFrom<T>(disk.normal);
-  const Frame<P> frame = Frame<P>::fromNormal(disk.normal);
-  r.shading = {liftFrom<T>(frame.s), liftFrom<T>(frame.t), r.ng};
+  r.shading.assign(Frame<P>::fromNormal(disk.normal));
   r.flat = true;
+  r.constantNormal = !ad::isDual<P>;
   r.uv = {safeSqrt(T(dot2(x, x, y, y))), turns(y, x)};
   return r;
 }

@@ -21,7 +21,15 @@ struct SurfacePoint {
   Vec3<T> ng;         // geometric normal, unit, on the shading normal's side
   Frame<T> shading;   // shading frame, from the interpolated normal where the mesh has one
   bool flat = false;  // shading.n is ng
-  Vec2<T> uv;         // texture coordinates (barycentric ones where the mesh has none)
+  bool constantNormal = false;  // ng has no derivatives
+  Vec2<T> uv;                   // texture coordinates (barycentric ones where the mesh has none)
+
+  // Of ng and w.
+  T cosine(const Vec3<T>& w) const {
+    if constexpr (ad::isDual<T>)
+      if (constantNormal) return dot(w, value3(ng));
+    return dot(ng, w);
+  }
 };
 
 }  // namespace h2mc

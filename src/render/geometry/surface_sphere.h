@@ -58,7 +58,7 @@ SurfacePoint<T> spherePoint(const SphereView<P>& sphere, const Vec3<T>& n) {
   outward *= static_cast<double>(value(sphere.radius)) / std::sqrt(glm::dot(outward, outward));
   r.p = n * sphere.radius;
   if constexpr (ad::isDual<P>) r.p = r.p + sphere.center;
-  r.p = withValue(r.p, Vec3<S>(sphere.exactCenter + outward));
+  setValue(r.p, Vec3<S>(sphere.exactCenter + outward));
   r.ng = sphere.flipNormals ? -n : n;
   r.shading = Frame<T>::fromNormal(r.ng);
   r.flat = true;

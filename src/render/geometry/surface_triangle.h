@@ -86,10 +86,10 @@ void finishTrianglePoint(const View& mesh, std::uint32_t index, Vec3<typename Vi
   }
   if (!interpolated) {
     if (dot(value3(normal), value3(passive)) < 0) normal = -normal;
-    const Frame<P> frame = Frame<P>::fromNormal(passive);
-    r.shading = {liftFrom<T>(frame.s), liftFrom<T>(frame.t), liftFrom<T>(frame.n)};
+    r.shading.assign(Frame<P>::fromNormal(passive));
   }
   r.ng = liftFrom<T>(normal);
+  r.constantNormal = !ad::isDual<P>;
   if (!mesh.hasUvs()) {
     r.uv = {b1, b2};
   } else {
@@ -109,7 +109,7 @@ SurfacePoint<T> trianglePoint(const View& mesh, std::uint32_t index, const T& b1
          weighted2(b1, triangle.e1.y, b2, triangle.e2.y),
          weighted2(b1, triangle.e1.z, b2, triangle.e2.z)};
   if constexpr (ad::isDual<typename View::P>) r.p = r.p + triangle.p0;
-  r.p = withValue(r.p, pointOnTriangle(triangle, value(b1), value(b2)));
+  setValue(r.p, pointOnTriangle(triangle, value(b1), value(b2)));
   finishTrianglePoint<T>(mesh, index, triangle.normal, b1, b2, r);
   return r;
 }
@@ -137,7 +137,7 @@ SurfacePoint<T> intersectTriangle(const View& mesh, std::uint32_t index, const V
   SurfacePoint<T> r;
   r.p = p;
   if constexpr (ad::isDual<typename View::P>) r.p = r.p + triangle.p0;
-  r.p = withValue(r.p, pointOnTriangle(triangle, value(b1), value(b2)));
+  setValue(r.p, pointOnTriangle(triangle, value(b1), value(b2)));
   finishTrianglePoint<T>(mesh, index, triangle.normal, b1, b2, r);
   return r;
 }
@@ -176,7 +176,7 @@ SurfacePoint<T> trianglePointAt(const View& mesh, std::uint32_t index, const Vec
   r.p = {weighted2(at.x, axes.x.x, at.y, axes.y.x), weighted2(at.x, axes.x.y, at.y, axes.y.y),
          weighted2(at.x, axes.x.z, at.y, axes.y.z)};
   if constexpr (ad::isDual<typename View::P>) r.p = r.p + triangle.p0;
-  r.p = withValue(r.p, pointOnTriangle(triangle, value(b1), value(b2)));
+  setValue(r.p, pointOnTriangle(triangle, value(b1), value(b2)));
   finishTrianglePoint<T>(mesh, index, triangle.normal, b1, b2, r);
   return r;
 }

@@ -11,7 +11,6 @@ void AreaLight::prepare(std::span<const Shape> shapes) {
   if (!(area_ >= std::numeric_limits<float>::min())) area_ = std::numeric_limits<float>::min();
   wraps_ = wrapsAround(s);
   moving_ = s.moves();
-  curved_ = moving_ || std::holds_alternative<Sphere>(s.geometry);
   std::size_t count = 0;
   if (const auto* still = std::get_if<TriangleMesh>(&s.geometry))
     count = still->parallelogram ? 0 : still->triangles.size();

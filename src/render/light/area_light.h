@@ -54,15 +54,9 @@ struct AreaLight {
   template <class T>
   T densityFactor(const LightContext& context, PrimitiveId primitive, const T& time) const;
 
-  // The frame of emitted directions around the geometric normal.
-  template <class T>
-  Vec3<T> aroundNormal(const Vec3<T>& normal, const Vec3<T>& local) const;
-
   DiscreteDistribution triangles_;  // by area; empty for shapes that are sampled whole
   float area_ = 0;                  // until prepare()
   bool wraps_ = false;
-  bool curved_ =
-      false;  // the geometric normal has derivatives: it varies within a primitive, or moves
   bool moving_ = false;
 };
 
@@ -105,7 +99,7 @@ DirectLight<T> AreaLight::sampleDirect(const LightContext& context, PrimitiveId 
   const T inverse = ad::rsqrt(distance2);
   r.direction = offset * inverse;
   r.distance = distance2 * inverse;
-  const T cosLight = dot(r.direction, point.ng);
+  const T cosLight = point.cosine(r.direction);
   r.cosLight = cosine < 0 ? cosLight : T(-cosLight);
   // Edge on: no density per solid angle. Held at a value that keeps quotients finite.
   if (value(r.cosLight) < S(1e-7)) r.cosLight = T(S(1e-7));
@@ -129,14 +123,6 @@ DirectLight<T> AreaLight::sampleDirect(const LightContext& context, PrimitiveId 
 }
 
 template <class T>
-Vec3<T> AreaLight::aroundNormal(const Vec3<T>& normal, const Vec3<T>& local) const {
-  using S = Scalar<T>;
-  if (curved_) return Frame<T>::fromNormal(normal).toWorld(local);
-  const Frame<S> frame = Frame<S>::fromNormal(value3(normal));
-  return ad::combine(local.x, frame.s, local.y, frame.t, local.z, frame.n);
-}
-
-template <class T>
 EmittedRay<T> AreaLight::sampleEmission(const LightContext& context, PrimitiveId primitive,
                                         const T& u0, const T& u1, const T& v0, const T& v1,
                                         const T* time) const {
@@ -147,7 +133,12 @@ EmittedRay<T> AreaLight::sampleEmission(const LightContext& context, PrimitiveId
   r.cosLight = local.z;
   r.origin = point.p;
   r.normal = point.ng;
-  r.direction = aroundNormal<T>(point.ng, local);
+  if (point.constantNormal) {
+    const Frame<S> frame = Frame<S>::fromNormal(value3(point.ng));
+    r.direction = ad::combine(local.x, frame.s, local.y, frame.t, local.z, frame.n);
+  } else {
+    r.direction = Frame<T>::fromNormal(point.ng).toWorld(local);
+  }
   r.emissionPdf = r.cosLight * S(kInvPi / area_);
   r.directPdf = T(S(1 / area_));
   T etendue = T(S(kPi * area_));
@@ -166,7 +157,7 @@ LightHit<T> AreaLight::hit(const LightContext& context, const SurfacePoint<T>& p
   using S = Scalar<T>;
   LightHit<T> r;
   r.directPdf = T(S(1 / area_));
-  const T cosine = -dot(point.ng, direction);
+  const T cosine = -point.cosine(direction);
   if (value(cosine) > 0) {
     r.radiance = evaluate<T>(*radiance, point.uv);
     r.emissionPdf = cosine * S(kInvPi / area_);

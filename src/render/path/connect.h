@@ -135,13 +135,14 @@ Link<T> linkToLight(const Scene& scene, const Arrival<T>& vertex, PrimitiveId id
       [&](const auto& l) -> Link<T> {
         direct =
             sampleDirectAt<T>(l, scene.lightContext(), primitive, vertex.point.p, u0, u1, time);
-        if (!(value(direct.directPdf) > 0)) return Link<T>::none();
+        Link<T> link = Link<T>::none();
+        if (!(value(direct.directPdf) > 0)) return link;
         const Vec3<T> wo = vertex.point.shading.toLocal(direct.direction);
         const BsdfValue<T> e =
             evaluateMaterial<T>(scene.bsdfs, materialAt(scene, id), vertex.point.uv, vertex.wi, wo);
         const Scalar<T> pick = scene.directPicker.probability(light);
         const T inverse = T(1) / (direct.directPdf * pick);
-        Link<T> link(direct.arriving * e.value * (Scalar<T>(1) / pick));
+        link.value = direct.arriving * e.value * (Scalar<T>(1) / pick);
         if (link.zero()) return link;
         if (!l.isDelta()) link.direct = e.pdf * inverse;
         if (techniques == Techniques::kBidirectional) {
@@ -159,21 +160,22 @@ Link<T> linkToLight(const Scene& scene, const Arrival<T>& vertex, PrimitiveId id
 template <class T>
 Link<T> linkOfVertices(const Scene& scene, const Arrival<T>& camera, PrimitiveId cameraId,
                        const Arrival<T>& light, PrimitiveId lightId) {
+  Link<T> link = Link<T>::none();
   const Vec3<T> edge = light.point.p - camera.point.p;
   const T inverse2 = T(1) / length2(edge);
-  if (!(value(inverse2) < std::numeric_limits<Scalar<T>>::max())) return Link<T>::none();
+  if (!(value(inverse2) < std::numeric_limits<Scalar<T>>::max())) return link;
   const Vec3<T> toLight = edge * sqrt(inverse2);
   const Vec3<T> wo = camera.point.shading.toLocal(toLight);
   const BsdfValue<T> ec =
       evaluateMaterial<T>(scene.bsdfs, materialAt(scene, cameraId), camera.point.uv, camera.wi, wo);
-  if (!(value(ec.pdf) > 0)) return Link<T>::none();
+  if (!(value(ec.pdf) > 0)) return link;
   const Vec3<T> toCamera = light.point.shading.toLocal(-toLight);
   const BsdfValue<T> el = evaluateMaterial<T>(scene.bsdfs, materialAt(scene, lightId),
                                               light.point.uv, toCamera, light.wi);
   const T cosCamera = geometricCosine(camera.point, wo, toLight);
   const T cosLight = geometricCosine(light.point, toCamera, toLight);
   const T spread = cosLight * inverse2;
-  Link<T> link(ec.value * el.value * (spread / light.cosIn));
+  link.value = ec.value * el.value * (spread / light.cosIn);
   if (link.zero()) return link;
   link.light.vcm = ec.pdf * spread;
   link.light.vc = link.light.vcm * el.pdf;
@@ -187,17 +189,18 @@ template <class T>
 Link<T> linkToCamera(const Scene& scene, const Arrival<T>& light, PrimitiveId id,
                      const std::type_identity_t<T>* time = nullptr) {
   return withCameraPose<T>(scene, time, [&](const auto& pose) {
+    Link<T> link = Link<T>::none();
     const Vec3<T> edge = light.point.p - pose.position;
     const T inverse2 = T(1) / length2(edge);
     const Vec3<T> fromCamera = edge * sqrt(inverse2);
     const T cosine = dot(pose.forward, fromCamera);
-    if (!(value(cosine) > 0)) return Link<T>::none();
+    if (!(value(cosine) > 0)) return link;
     const Vec3<T> wi = light.point.shading.toLocal(-fromCamera);
     const BsdfValue<T> e =
         evaluateMaterial<T>(scene.bsdfs, materialAt(scene, id), light.point.uv, wi, light.wi);
     const T cosHere = geometricCosine(light.point, wi, fromCamera);
     const T cameraPdf = scene.camera.pdf(cosine) * cosHere * inverse2;  // per area
-    Link<T> link(e.value * (cameraPdf / light.cosIn));
+    link.value = e.value * (cameraPdf / light.cosIn);
     if (link.zero()) return link;
     link.light.vcm = cameraPdf;
     link.light.vc = cameraPdf * e.pdf;

@@ -21,13 +21,20 @@ Vec3<Dual<N>> lift(const Vec3<Dual<M>>& a) {
   return {lift<N, Offset>(a.x), lift<N, Offset>(a.y), lift<N, Offset>(a.z)};
 }
 template <int N, int Offset, int M>
+Frame<Dual<N>> lift(const Frame<Dual<M>>& a) {
+  if (!a.constant) return {lift<N, Offset>(a.s), lift<N, Offset>(a.t), lift<N, Offset>(a.n)};
+  Frame<Dual<N>> b;
+  b.assign(Frame<float>{value3(a.s), value3(a.t), value3(a.n)});
+  return b;
+}
+template <int N, int Offset, int M>
 PathVertex<Dual<N>> lift(const PathVertex<Dual<M>>& a) {
   PathVertex<Dual<N>> b;
   b.point.p = lift<N, Offset>(a.point.p);
   b.point.ng = lift<N, Offset>(a.point.ng);
-  b.point.shading.s = lift<N, Offset>(a.point.shading.s);
-  b.point.shading.t = lift<N, Offset>(a.point.shading.t);
-  b.point.shading.n = lift<N, Offset>(a.point.shading.n);
+  b.point.shading = lift<N, Offset>(a.point.shading);
+  b.point.flat = a.point.flat;
+  b.point.constantNormal = a.point.constantNormal;
   b.point.uv = {lift<N, Offset>(a.point.uv.x), lift<N, Offset>(a.point.uv.y)};
   b.wi = lift<N, Offset>(a.wi);
   b.cosIn = lift<N, Offset>(a.cosIn);

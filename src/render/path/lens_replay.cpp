@@ -14,9 +14,9 @@ SurfacePoint<T> constant(const SurfacePoint<float>& a) {
   SurfacePoint<T> b;
   b.p = constant(a.p);
   b.ng = constant(a.ng);
-  b.shading.s = constant(a.shading.s);
-  b.shading.t = constant(a.shading.t);
-  b.shading.n = constant(a.shading.n);
+  b.shading.assign(a.shading);
+  b.flat = a.flat;
+  b.constantNormal = true;
   b.uv = {T(a.uv.x), T(a.uv.y)};
   return b;
 }
@@ -69,7 +69,7 @@ void differentiateLens(const Scene& scene, const Path& path, int reconnection, D
     }
     const bool escapes = path.escaped && i == last;
     if (!escapes) {
-      camera = stays ? arriveAtPoint(ray, constant(traced.vertex.point))
+      camera = stays ? PathVertex<T>(ray, [&] { return constant(traced.vertex.point); })
                      : arriveAt<T>(scene, ray, traced.id, &time);
     }
     if (stays && i <= reconnection + 2)

@@ -76,8 +76,11 @@ class LocalForm {
   template <int M>
   void end(Step<M>& step, const Link<typename Step<M>::D>& link,
            const typename Step<M>::D* cameraCosIn, const typename Step<M>::D* lightCosIn);
-  // log root((vc reverse)^2 + vcm^2); kNone if that is zero.
-  Variable logRoot(const Subpath& subpath, Variable reverse);
+  // log(root((vc reverse)^2 + vcm^2) factor), the factor's logarithm kNone if it is one; kNone if the
+  // root is zero.
+  Variable logRoot(const Subpath& subpath, Variable reverse, Variable factor = kNone) {
+    return composition_.logSumExpOfSum(subpath.vc, reverse, subpath.vcm, factor, S(2));
+  }
 
   void startCamera();
   void startLight();

@@ -88,16 +88,16 @@ auto LocalForm<S, kMoving>::arrival(const Step<M>& step, int first, const Subpat
                                     const TracedVertex& vertex) const
     -> Arrival<typename Step<M>::D> {
   using D = typename Step<M>::D;
-  SurfacePoint<D> point =
-      pointOnPrimitive<D>(scene_.shapes, vertex.id, vertex.vertex.point.p,
-                          Vec2<D>(step.x(first), step.x(first + 1)), step.time());
+  Arrival<D> arrival(subpath.chart.direction(Vec2<D>(step.x(first + 2), step.x(first + 3))), [&] {
+    return pointOnPrimitive<D>(scene_.shapes, vertex.id, vertex.vertex.point.p,
+                               Vec2<D>(step.x(first), step.x(first + 1)), step.time());
+  });
   // Exactly where it was traced: coordinates on large surfaces are less precise than points.
   if constexpr (std::is_same_v<S, float>) {
-    point.p = withValue(point.p, vertex.vertex.point.p);
-    point.uv = withValue(point.uv, vertex.vertex.point.uv);
+    setValue(arrival.point.p, vertex.vertex.point.p);
+    setValue(arrival.point.uv, vertex.vertex.point.uv);
   }
-  return arrivalAt<D>(point,
-                      subpath.chart.direction(Vec2<D>(step.x(first + 2), step.x(first + 3))));
+  return arrival;
 }
 
 // Whether two duals are the same function, as far as they know.
@@ -183,15 +183,6 @@ void LocalForm<S, kMoving>::end(Step<M>& step, const Link<typename Step<M>::D>& 
 }
 
 template <class S, bool kMoving>
-auto LocalForm<S, kMoving>::logRoot(const Subpath& subpath, Variable reverse) -> Variable {
-  Variable z[2];
-  int count = 0;
-  if (subpath.vc != kNone && reverse != kNone) z[count++] = composition_.sum(subpath.vc, reverse);
-  if (subpath.vcm != kNone) z[count++] = subpath.vcm;
-  return count > 0 ? composition_.logSumExp(z, count, S(2)) : kNone;
-}
-
-template <class S, bool kMoving>
 void LocalForm<S, kMoving>::startCamera() {
   Step<2> step(composition_, path_, {0, 1});
   using D = typename Step<2>::D;
@@ -245,9 +236,13 @@ void LocalForm<S, kMoving>::scatter(Side side, int index) {
   const int factor = hasVc || !s.delta ? step.addLog(s.vc / vertex.cosIn) : kNone;
   const int reverse = hasVc && !s.delta ? step.addLog(s.reverse) : kNone;
   step.apply();
-  const Variable root = s.delta ? subpath.vc : logRoot(subpath, step.variable(reverse));
-  subpath.vc =
-      root == kNone || factor == kNone ? kNone : composition_.sum(root, step.variable(factor));
+  const Variable scale = step.variable(factor);
+  if (scale == kNone)
+    subpath.vc = kNone;
+  else if (!s.delta)
+    subpath.vc = logRoot(subpath, step.variable(reverse), scale);
+  else if (subpath.vc != kNone)
+    subpath.vc = composition_.sum(subpath.vc, scale);
   arrive(step, leaving, subpath);
   multiply(step, throughput);
 }

@@ -33,18 +33,44 @@ struct PathRay {
   bool fromInfinity = false;        // left an infinite light: its distance is no density's business
 };
 
+// |cos| with the geometric normal of a direction: `local` in the shading frame, `world` in the world.
+template <class T>
+T geometricCosine(const SurfacePoint<T>& point, const Vec3<T>& local, const Vec3<T>& world) {
+  return point.flat ? abs(local.z) : abs(point.cosine(world));
+}
+
 // Where a subpath has arrived at a surface: what scattering there sees of it.
 template <class T>
 struct Arrival {
   SurfacePoint<T> point;
   Vec3<T> wi;  // local direction to the previous vertex
   T cosIn;     // |cos| of the same with the geometric normal
+
+  Arrival() = default;
+  // At the point that find() returns, in unit direction `direction`. (Points of duals are large: this way
+  // they are made where they stay.)
+  template <class Find>
+  Arrival(const Vec3<T>& direction, Find&& find)
+      : point(find()),
+        wi(point.shading.toLocal(-direction)),
+        cosIn(geometricCosine(point, wi, direction)) {}
 };
 // The same with what the subpath brings along.
 template <class T>
 struct PathVertex : Arrival<T> {
   Rgb<T> throughput;
   T vcm, vc;
+
+  PathVertex() = default;
+  // At the point that find() returns, which the ray is known to hit.
+  template <class Find>
+  PathVertex(const PathRay<T>& ray, Find&& find)
+      : Arrival<T>(ray.direction, std::forward<Find>(find)), throughput(ray.throughput) {
+    const T inverse = T(1) / this->cosIn;
+    vcm = ray.vcm * inverse;
+    if (!ray.fromInfinity) vcm = vcm * distance2(this->point.p, ray.origin);
+    vc = ray.vc * inverse;
+  }
 };
 
 // What a scattering does to the subpath, whatever the subpath brings along: onwards() applies it.
@@ -127,33 +153,13 @@ PathRay<T> startLight(const Scene& scene, int light, PrimitiveId primitive, cons
       scene.lights[static_cast<std::size_t>(light)]);
 }
 
-// |cos| with the geometric normal of a direction: `local` in the shading frame, `world` in the world.
+// One function, not inlined: compilers contract a b + c as its surroundings suggest, and a path that is
+// replayed has to arrive where it was traced to.
 template <class T>
-T geometricCosine(const SurfacePoint<T>& point, const Vec3<T>& local, const Vec3<T>& world) {
-  return point.flat ? abs(local.z) : abs(dot(point.ng, world));
-}
-
-template <class T>
-Arrival<T> arrivalAt(const SurfacePoint<T>& point, const Vec3<T>& direction) {
-  const Vec3<T> back = -direction, wi = point.shading.toLocal(back);
-  return {point, wi, geometricCosine(point, wi, back)};
-}
-
-// Arrives at a point that the ray is known to hit.
-template <class T>
-PathVertex<T> arriveAtPoint(const PathRay<T>& ray, const SurfacePoint<T>& point) {
-  PathVertex<T> vertex{arrivalAt(point, ray.direction), ray.throughput, ray.vcm, ray.vc};
-  const T inverse = T(1) / vertex.cosIn;
-  vertex.vcm = ray.vcm * inverse;
-  if (!ray.fromInfinity) vertex.vcm = vertex.vcm * distance2(vertex.point.p, ray.origin);
-  vertex.vc = ray.vc * inverse;
-  return vertex;
-}
-
-template <class T>
-PathVertex<T> arriveAt(const Scene& scene, const PathRay<T>& ray, PrimitiveId id,
-                       const std::type_identity_t<T>* time = nullptr) {
-  return arriveAtPoint(ray, intersectPrimitive(scene.shapes, id, ray.origin, ray.direction, time));
+[[gnu::noinline]] PathVertex<T> arriveAt(const Scene& scene, const PathRay<T>& ray, PrimitiveId id,
+                                         const std::type_identity_t<T>* time = nullptr) {
+  return PathVertex<T>(
+      ray, [&] { return intersectPrimitive(scene.shapes, id, ray.origin, ray.direction, time); });
 }
 
 // What light is multiplied by that is scattered to the local direction wo, at |cos| cosOut with the
