@@ -4,7 +4,7 @@
 option(H2MC_NATIVE "Compile for the processor of this machine (-march=native)" ON)
 set(H2MC_ARCH "" CACHE STRING "Instruction set when H2MC_NATIVE is off, such as x86-64-v3; empty for the compiler's own")
 option(H2MC_WERROR "Treat warnings as errors" OFF)
-set(H2MC_DERIVATIVE_EDGES 3 CACHE STRING "Longest paths that have the plain derivative beside the local one, 3 to 8 edges")
+set(H2MC_DERIVATIVE_EDGES 4 CACHE STRING "Longest paths that have the plain derivative beside the local one, 4 to 8 edges")
 set(H2MC_SANITIZE "" CACHE STRING "Sanitizers to build with, such as address,undefined")
 option(H2MC_BUILD_TESTS "Build the tests, where GoogleTest is found" ON)
 set(H2MC_TEST_FOLDERS "ad;unit;derivative;statistical;stress;image" CACHE STRING "Which folders of tests to build")

@@ -71,9 +71,8 @@ class Composition {
   void differentiate(Variable result, T* gradient, T* hessian);
 
  private:
-  static constexpr int kLanes = 64 / int(sizeof(T));
+  static constexpr int kLanes = detail::kRegisterBytes / int(sizeof(T));
   using Lane = typename detail::VectorOf<T, kLanes>::type;
-  using One = std::integral_constant<int, 1>;
 
   // The coordinates that a variable may depend on.
   struct Span {
@@ -124,11 +123,13 @@ class Composition {
     return first;
   }
 
-  // Calls f with the number of vectors in a row: a constant where it is one, so that loops vanish.
+  // Calls f with the number of vectors in a row: a constant where it is small, so that loops vanish.
   template <class F>
   void withStride(F&& f) {
     if (stride_ == 1)
-      f(One{});
+      f(std::integral_constant<int, 1>{});
+    else if (stride_ == 2)
+      f(std::integral_constant<int, 2>{});
     else
       f(stride_);
   }

@@ -16,6 +16,196 @@ namespace {
 // Mutations of a chain in one round: a round of all chains takes some hundredths of a second.
 constexpr long long kRound = 32;
 
+// One render: direct lighting and the chains take turns.
+class MetropolisRender {
+ public:
+  MetropolisRender(const MetropolisMethod& method, const OptionSet& options, int maxLength,
+                   const Scene& scene, const RenderRequest& request)
+      : method_(method),
+        options_(options),
+        scene_(scene),
+        request_(request),
+        mutationsPerPixel_(mutationBudget()),
+        directRequest_(directRequest()),
+        direct_(scene, options, directRequest_),
+        minLength_(split() ? DirectLighting::kLongest + 1 : options.integer("minDepth")),
+        maxLength_(maxLength) {}
+  MetropolisRender(const MetropolisRender&) = delete;
+  MetropolisRender& operator=(const MetropolisRender&) = delete;
+
+  RenderResult run();
+
+ private:
+  bool timed() const { return request_.budget.seconds > 0; }
+  bool stopped() const { return request_.stop && *request_.stop; }
+  // Whether direct lighting is left out of the chains.
+  bool split() const { return direct_.wanted(); }
+  double pixels() const { return static_cast<double>(scene_.film.width) * scene_.film.height; }
+
+  // 0 where seconds are the only limit.
+  long long mutationBudget() const {
+    const RenderBudget& budget = request_.budget;
+    const long long asked = budget.mutationsPerPixel + budget.samplesPerPixel;
+    return asked == 0 && !timed() ? options_.integer("mutationsPerPixel") : asked;
+  }
+  RenderRequest directRequest() const;
+  void extendDirect(std::size_t mark);
+  void balanceDirect(const ChainEnsemble& chains);
+  void endEpoch(ChainEnsemble& chains);
+  void atMark(std::size_t mark, const std::function<RenderResult()>& result);
+  RoundsPlan plan(ChainEnsemble& chains);
+  RenderResult directAlone();
+  RenderResult withChains(const Bootstrap& bootstrap);
+  RenderResult finished(RenderResult result);
+
+  RenderClock clock_;
+  const MetropolisMethod& method_;
+  const OptionSet& options_;
+  const Scene& scene_;
+  const RenderRequest& request_;
+  const long long mutationsPerPixel_;
+  const RenderRequest directRequest_;
+  DirectLighting direct_;
+  const int minLength_, maxLength_;  // of the chains' paths
+  long long stepsPerChain_ = 0;      // 0: by time
+  std::size_t nextMark_ = 0;
+  double chainsBegan_ = 0, directBefore_ = 0;  // seconds of the clock, seconds of direct_ by then
+};
+
+RenderRequest MetropolisRender::directRequest() const {
+  RenderRequest r = request_;
+  r.progress = nullptr;
+  if (request_.progress && timed())
+    r.progress = [this](const RenderProgress& own) {
+      const double now = clock_.wallSeconds();
+      request_.progress(
+          {std::min(now / request_.budget.seconds, 1.0), now, own.rate, own.rateUnit});
+    };
+  return r;
+}
+
+// Direct lighting keeps pace with the chains: up to mark i it gets what a render that ends there would
+// give it.
+void MetropolisRender::extendDirect(std::size_t mark) {
+  if (!split()) return;
+  const double end = mark < request_.marks.size() ? request_.marks[mark] : 0;
+  if (timed())
+    direct_.extendTo(end > 0 ? end : request_.budget.seconds, 0);
+  else
+    direct_.extendTo(0, end > 0 ? std::llround(end) : mutationsPerPixel_);
+}
+
+void MetropolisRender::balanceDirect(const ChainEnsemble& chains) {
+  DirectLighting::Standing now;
+  now.mutations = chains.mutationsPerPixel();
+  now.seconds = clock_.wallSeconds();
+  now.chainSeconds = now.seconds - chainsBegan_ - (direct_.seconds() - directBefore_);
+  if (nextMark_ < request_.marks.size())
+    (timed() ? now.endSeconds : now.endMutations) = request_.marks[nextMark_];
+  else if (timed())
+    now.endSeconds = request_.budget.seconds;
+  else
+    now.endMutations = static_cast<double>(mutationsPerPixel_);
+  now.growth = ChainEnsemble::kGrowth;
+  direct_.balance(now);
+}
+
+void MetropolisRender::endEpoch(ChainEnsemble& chains) {
+  if (!split()) return chains.nextEpoch(nullptr);
+  direct_.measure(chains.halves(), chains.cell());
+  balanceDirect(chains);
+  Image image = direct_.image();
+  for (Rgbf& pixel : image.pixels) pixel *= static_cast<float>(1 / scene_.radianceUnit);
+  chains.nextEpoch(&image);
+}
+
+void MetropolisRender::atMark(std::size_t mark, const std::function<RenderResult()>& result) {
+  clock_.exclude([&] { request_.atMark(mark, finished(result())); });
+  nextMark_ = mark + 1;
+  extendDirect(nextMark_);
+}
+
+RenderResult MetropolisRender::finished(RenderResult result) {
+  result.sampleUnit = "mutations";
+  toFileUnits(scene_, result);
+  if (split()) direct_.addTo(result);
+  if (result.image.pixels.empty()) result.image = Image(scene_.film.width, scene_.film.height);
+  result.statistics["mean luminance"] = result.meanLuminance;
+  result.statistics["mean luminance standard error"] = result.meanLuminanceError;
+  result.wallSeconds = clock_.wallSeconds();
+  result.cpuSeconds = clock_.cpuSeconds();
+  return result;
+}
+
+// Where there is nothing for the chains to do.
+RenderResult MetropolisRender::directAlone() {
+  for (std::size_t mark = 0; mark < request_.marks.size() && !direct_.interrupted(); ++mark)
+    atMark(mark, [] { return RenderResult(); });
+  RenderResult none;
+  none.interrupted = stopped();
+  return finished(none);
+}
+
+RoundsPlan MetropolisRender::plan(ChainEnsemble& chains) {
+  RoundsPlan plan;
+  plan.unit = "mutations";
+  plan.unitsPerRound = static_cast<double>(chains.chains()) * kRound;
+  if (timed()) {
+    plan.seconds = request_.budget.seconds;
+    plan.marks = request_.marks;
+  } else {
+    const auto steps = [&](double perPixel) { return perPixel * pixels() / chains.chains(); };
+    stepsPerChain_ =
+        static_cast<long long>(std::ceil(steps(static_cast<double>(mutationsPerPixel_))));
+    plan.rounds = (stepsPerChain_ + kRound - 1) / kRound;
+    for (const double mark : request_.marks) plan.marks.push_back(steps(mark) / kRound);
+  }
+  plan.atMark = [&](std::size_t mark, const RoundsResult&) {
+    atMark(mark, [&] { return chains.result(); });
+    if (split()) balanceDirect(chains);
+  };
+  plan.betweenRounds = [&] {
+    if (chains.epochIsOver()) endEpoch(chains);
+  };
+  return plan;
+}
+
+RenderResult MetropolisRender::withChains(const Bootstrap& bootstrap) {
+  const bool stoppedEarly = stopped();
+  ChainEnsemble chains(scene_, method_, options_, bootstrap, minLength_, maxLength_, request_);
+  RoundsPlan rounds = plan(chains);
+  RenderRequest request = request_;
+  // Stopped before the chains began: one round, so that the image is whole.
+  const std::atomic<bool> goOn{false};
+  if (stoppedEarly) {
+    request.stop = &goOn;
+    rounds.rounds = 1;
+    rounds.marks.clear();
+  }
+  chainsBegan_ = clock_.wallSeconds();
+  directBefore_ = direct_.seconds();
+  const RoundsResult done =
+      runRounds(request, clock_, chains.groups(), rounds, [&](int group, long long round) {
+        chains.run(group,
+                   stepsPerChain_ > 0 ? std::min(kRound, stepsPerChain_ - round * kRound) : kRound);
+      });
+  RenderResult result = chains.result();
+  result.interrupted = done.interrupted || stoppedEarly;
+  return finished(std::move(result));
+}
+
+RenderResult MetropolisRender::run() {
+  extendDirect(0);
+  if (minLength_ > maxLength_) return directAlone();
+  const Bootstrap bootstrap(scene_, minLength_, maxLength_,
+                            std::max(1, options_.integer("bootstrapSamples")), request_.seed,
+                            request_.threads, request_.stop);
+  if (bootstrap.luminance().mean() > 0) return withChains(bootstrap);
+  spdlog::warn("no light arrives through paths of {} to {} edges: nothing to sample there",
+               minLength_, maxLength_);
+  return directAlone();
+}
+
 class MetropolisIntegrator final : public Integrator {
  public:
   MetropolisIntegrator(const MetropolisMethod& method, const OptionSet& options)
@@ -29,146 +219,15 @@ class MetropolisIntegrator final : public Integrator {
     if (method.check) method.check(options);
   }
 
-  RenderResult render(const Scene& scene, const RenderRequest& request) override;
+  RenderResult render(const Scene& scene, const RenderRequest& request) override {
+    return MetropolisRender(method_, options_, maxLength_, scene, request).run();
+  }
 
  private:
   MetropolisMethod method_;
   OptionSet options_;
   int maxLength_;
 };
-
-RenderResult MetropolisIntegrator::render(const Scene& scene, const RenderRequest& request) {
-  RenderClock clock;
-  const int maxLength = maxLength_;
-  int minLength = options_.integer("minDepth");
-  const double pixels = static_cast<double>(scene.film.width) * scene.film.height;
-  long long mutationsPerPixel = request.budget.mutationsPerPixel + request.budget.samplesPerPixel;
-  if (mutationsPerPixel == 0 && request.budget.seconds <= 0)
-    mutationsPerPixel = options_.integer("mutationsPerPixel");
-
-  RenderRequest directRequest = request;
-  directRequest.progress = nullptr;
-  if (request.progress && request.budget.seconds > 0)
-    directRequest.progress = [&](const RenderProgress& own) {
-      const double now = clock.wallSeconds();
-      request.progress({std::min(now / request.budget.seconds, 1.0), now, own.rate, own.rateUnit});
-    };
-  DirectLighting direct(scene, options_, directRequest);
-  const bool split = direct.wanted();
-  if (split) minLength = DirectLighting::kLongest + 1;
-  // Direct lighting keeps pace with the chains: up to mark i it gets what a render that ends there
-  // would give it.
-  const auto extendDirect = [&](std::size_t mark) {
-    if (!split) return;
-    const double end = mark < request.marks.size() ? request.marks[mark] : 0;
-    if (request.budget.seconds > 0)
-      direct.extendTo(end > 0 ? end : request.budget.seconds, 0);
-    else
-      direct.extendTo(0, end > 0 ? std::llround(end) : mutationsPerPixel);
-  };
-  const auto finished = [&](RenderResult result) {
-    result.sampleUnit = "mutations";
-    toFileUnits(scene, result);
-    if (split) direct.addTo(result);
-    if (result.image.pixels.empty()) result.image = Image(scene.film.width, scene.film.height);
-    result.statistics["mean luminance"] = result.meanLuminance;
-    result.statistics["mean luminance standard error"] = result.meanLuminanceError;
-    result.wallSeconds = clock.wallSeconds();
-    result.cpuSeconds = clock.cpuSeconds();
-    return result;
-  };
-  const auto callMark = [&](std::size_t mark, const std::function<RenderResult()>& result) {
-    clock.exclude([&] { request.atMark(mark, finished(result())); });
-    extendDirect(mark + 1);
-  };
-  const auto stopped = [&] { return request.stop && *request.stop; };
-  // Where there is nothing for the chains to do.
-  const auto directAlone = [&] {
-    for (std::size_t mark = 0; mark < request.marks.size() && !direct.interrupted(); ++mark)
-      callMark(mark, [] { return RenderResult(); });
-    RenderResult none;
-    none.interrupted = stopped();
-    return finished(none);
-  };
-
-  extendDirect(0);
-  if (minLength > maxLength) return directAlone();
-
-  const long long bootstrapSamples = std::max(1, options_.integer("bootstrapSamples"));
-  const Bootstrap bootstrap(scene, minLength, maxLength, bootstrapSamples, request.seed,
-                            request.threads, request.stop);
-  const bool stoppedEarly = stopped();
-  if (!(bootstrap.luminance().mean() > 0)) {
-    spdlog::warn("no light arrives through paths of {} to {} edges: nothing to sample there",
-                 minLength, maxLength);
-    return directAlone();
-  }
-
-  ChainEnsemble chains(scene, method_, options_, bootstrap, minLength, maxLength, request);
-  RoundsPlan plan;
-  plan.unit = "mutations";
-  plan.unitsPerRound = static_cast<double>(chains.chains()) * kRound;
-  long long stepsPerChain = 0;  // 0: by time
-  if (request.budget.seconds > 0) {
-    plan.seconds = request.budget.seconds;
-    plan.marks = request.marks;
-  } else {
-    stepsPerChain = static_cast<long long>(
-        std::ceil(static_cast<double>(mutationsPerPixel) * pixels / chains.chains()));
-    plan.rounds = (stepsPerChain + kRound - 1) / kRound;
-    for (const double mark : request.marks)
-      plan.marks.push_back(mark * pixels / chains.chains() / kRound);
-  }
-  RenderRequest chainRequest = request;
-  const double chainsBegan = clock.wallSeconds(), directBefore = direct.seconds();
-  std::size_t nextMark = 0;
-  const auto balanceDirect = [&] {
-    const bool last = nextMark >= request.marks.size();
-    const bool timed = request.budget.seconds > 0;
-    DirectLighting::Standing now;
-    now.mutations = chains.mutationsPerPixel();
-    now.seconds = clock.wallSeconds();
-    now.chainSeconds = now.seconds - chainsBegan - (direct.seconds() - directBefore);
-    if (!last)
-      (timed ? now.endSeconds : now.endMutations) = request.marks[nextMark];
-    else if (timed)
-      now.endSeconds = request.budget.seconds;
-    else
-      now.endMutations = static_cast<double>(mutationsPerPixel);
-    now.growth = ChainEnsemble::kGrowth;
-    direct.balance(now);
-  };
-  plan.atMark = [&](std::size_t mark, const RoundsResult&) {
-    callMark(mark, [&] { return chains.result(); });
-    nextMark = mark + 1;
-    if (split) balanceDirect();
-  };
-  plan.betweenRounds = [&] {
-    if (!chains.epochIsOver()) return;
-    if (!split) return chains.nextEpoch(nullptr);
-    direct.measure(chains.halves(), chains.cell());
-    balanceDirect();
-    Image image = direct.image();
-    for (Rgbf& pixel : image.pixels) pixel *= static_cast<float>(1 / scene.radianceUnit);
-    chains.nextEpoch(&image);
-  };
-  // Stopped before the chains began: one round, so that the image is whole.
-  const std::atomic<bool> goOn{false};
-  if (stoppedEarly) {
-    chainRequest.stop = &goOn;
-    plan.rounds = 1;
-    plan.marks.clear();
-  }
-  const RoundsResult rounds =
-      runRounds(chainRequest, clock, chains.groups(), plan, [&](int group, long long round) {
-        chains.run(group,
-                   stepsPerChain > 0 ? std::min(kRound, stepsPerChain - round * kRound) : kRound);
-      });
-
-  RenderResult result = chains.result();
-  result.interrupted = rounds.interrupted || stoppedEarly;
-  return finished(std::move(result));
-}
 
 }  // namespace
 

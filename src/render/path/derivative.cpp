@@ -13,8 +13,8 @@ namespace growing {
 extern template struct LogTarget<2>;
 extern template struct LogTarget<4>;
 extern template struct LogTarget<6>;
-#if H2MC_DERIVATIVE_EDGES > 3
 extern template struct LogTarget<8>;
+#if H2MC_DERIVATIVE_EDGES > 4
 extern template struct LogTarget<10>;
 extern template struct LogTarget<12>;
 extern template struct LogTarget<14>;
@@ -25,7 +25,7 @@ extern template struct LogTarget<16>;
 namespace {
 
 // Above this many coordinates the local form is faster (README, Speed).
-constexpr int kMostForPlain = 6;
+constexpr int kMostForPlain = 8;
 static_assert(kMostForPlain <= kMaxPlainDimension);
 
 template <int N>

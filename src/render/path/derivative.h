@@ -16,7 +16,7 @@ namespace h2mc {
 // The longest paths of the plain form, in edges; builds for comparisons of the two may have more, each
 // of which takes its time to compile.
 #ifndef H2MC_DERIVATIVE_EDGES
-#define H2MC_DERIVATIVE_EDGES 3
+#define H2MC_DERIVATIVE_EDGES 4
 #endif
 inline constexpr int kMaxPlainDimension = 2 * H2MC_DERIVATIVE_EDGES;
 // Coordinates of the longest path there is.
