@@ -61,8 +61,9 @@ class Check {
 
  private:
   // What spoils one second difference, a kink across its coordinates or noise, spoils those beside it,
-  // and not each of them shows that by itself. One is not judged where that by each of its two coordinates
-  // twice is not, or most of those beside it are not; zeros that depend on nothing say nothing.
+  // and not each of them shows that by itself. A mixed one is not judged where one of its coordinates
+  // alone meets a kink, since both together reach further; nor where that by each of its coordinates twice
+  // is not, or most of those beside it are not. Zeros that depend on nothing say nothing.
   void excuse(std::vector<EntryCheck>& hessian) const {
     const std::vector<EntryCheck> found = hessian;
     const auto at = [&](int i, int j) -> const EntryCheck& {
@@ -83,10 +84,12 @@ class Check {
         };
         for (int k = 0; k < n_; ++k)
           for (const int own : {i, j}) look(at(own, k));
+        const bool across =
+            i != j && (at(i, i).verdict == Verdict::kKink || at(j, j).verdict == Verdict::kKink);
         const bool both = i != j && unjudged(at(i, i)) && unjudged(at(j, j));
-        if (both || bent + noisy > judged)
+        if (across || both || bent + noisy > judged)
           hessian[index(triangleIndex(i, j))].verdict =
-              bent > noisy ? Verdict::kKink : Verdict::kNoise;
+              across || bent > noisy ? Verdict::kKink : Verdict::kNoise;
       }
   }
 

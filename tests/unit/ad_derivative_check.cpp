@@ -146,6 +146,22 @@ TEST(DerivativeCheck, NeighboursOfKinksAreNotJudged) {
   }
 }
 
+TEST(DerivativeCheck, MixedDifferencesReachAcrossTheKinksOfTheirCoordinates) {
+  // (a + b)^2 + b^2 + kink |a|: 2 by a and b, taken for 3.
+  for (const double kink : {0.0, 1.0}) {
+    const double at[2] = {0.5, 0.5}, steps[2] = {1.0 / 16, 1.0 / 16};
+    const auto f = [=](const double* x) {
+      const double a = x[0] - 0.5, b = x[1] - 0.5;
+      return (a + b) * (a + b) + b * b + kink * std::abs(a);
+    };
+    const DerivativeValues exact{0, {0, 0}, {2, 3, 4}};
+    const DerivativeCheck c = checkDerivative(f, at, 2, steps, exact, kTolerance);
+    EXPECT_EQ(c.hessian[0].verdict, kink > 0 ? Verdict::kKink : Verdict::kAgrees);
+    EXPECT_EQ(c.hessian[1].verdict, kink > 0 ? Verdict::kKink : Verdict::kWrong);
+    EXPECT_EQ(c.hessian[2].verdict, Verdict::kAgrees);
+  }
+}
+
 TEST(DerivativeCheck, NoiseIsMeasured) {
   // A rounding error of 1e-7, different at every point, as from an intermediate result in float.
   const auto noise = [](double x) {
