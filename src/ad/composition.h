@@ -67,8 +67,10 @@ class Composition {
   /// z alone, and z, which leaves a + b: none() if nothing is left.
   Variable logSumExpOfSum(Variable a, Variable b, Variable z, Variable more, T c);
 
-  /// Writes the gradient (coordinates() numbers) and the Hessian's lower triangle, row by row.
-  void differentiate(Variable result, T* gradient, T* hessian);
+  /// Writes the gradient (coordinates() numbers) and the Hessian's lower triangle, row by row. Returns how
+  /// much larger than the Hessian (or than 1, if it is smaller) the terms are that have been added up to it:
+  /// by so much their rounding is magnified. (On the diagonal; between the largest entries of each.)
+  T differentiate(Variable result, T* gradient, T* hessian);
 
  private:
   static constexpr int kLanes = detail::kRegisterBytes / int(sizeof(T));
@@ -100,6 +102,13 @@ class Composition {
 
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   static constexpr std::size_t divideUp(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
+  static Lane absolute(const Lane& v) { return v < T(0) ? -v : v; }
+  static T largest(const Lane& v) {
+    T most = v[0];
+    for (int i = 1; i < kLanes; ++i) most = std::max<T>(most, v[i]);
+    return most;
+  }
+  static void takeLarger(Lane& most, const Lane& v) { most = v > most ? v : most; }
   Lane* row(Variable v) { return rows_.data() + at(v) * at(stride_); }
   Span spanOf(Variable v) const { return spans_[at(v)]; }
 
@@ -149,6 +158,7 @@ class Composition {
   std::vector<T> values_, adjoints_;
   std::vector<Span> spans_;
   std::vector<Lane> rows_, hessian_, scratch_;
+  std::vector<Lane> added_;  // absolute values of the terms on the Hessian's diagonal
   std::vector<Node> nodes_;
   std::vector<Term> terms_;
   std::vector<Block> kept_;
@@ -276,9 +286,10 @@ auto Composition<T>::finishLinear(Node& node) -> Variable {
 }
 
 template <class T>
-void Composition<T>::differentiate(Variable result, T* gradient, T* hessian) {
+T Composition<T>::differentiate(Variable result, T* gradient, T* hessian) {
   std::memcpy(gradient, row(result), sizeof(T) * at(coordinates_));
   hessian_.assign(at(coordinates_ * stride_), Lane{});
+  added_.assign(at(stride_), Lane{});
   std::fill_n(adjoints_.begin(), count_, T(0));
   adjoints_[at(result)] = T(1);
   for (std::size_t n = nodes_.size(); n-- > 0;) {
@@ -288,15 +299,19 @@ void Composition<T>::differentiate(Variable result, T* gradient, T* hessian) {
     else
       linearBackward(node);
   }
+  Lane most = Lane{} + T(1), terms{};
+  for (int k = 0; k < stride_; ++k) takeLarger(terms, added_[at(k)]);
   // Whole vectors where what they write too much is written again.
   const T* const end = hessian + at(coordinates_) * at(coordinates_ + 1) / 2;
   for (int i = 0; i < coordinates_; hessian += ++i) {
     const Lane* const h = hessian_.data() + i * stride_;
+    for (int k = 0; k <= i / kLanes; ++k) takeLarger(most, absolute(h[k]));
     if (stride_ == 1 && end - hessian >= kLanes)
       std::memcpy(hessian, h, sizeof(Lane));
     else
       std::memcpy(hessian, h, sizeof(T) * at(i + 1));
   }
+  return largest(terms) / largest(most);
 }
 
 // hessian += S^T H S, H = the outputs' Hessians, each times its adjoint, S = the inputs' rows.
@@ -328,6 +343,9 @@ void Composition<T>::stepBackward(const Node& node) {
         weighted[i] = total.hessian(i, 0) * rows[0][k];
         for (int j = 1; j < M; ++j) weighted[i] += total.hessian(i, j) * rows[j][k];
       }
+      Lane diagonal = rows[0][k] * weighted[0];
+      for (int i = 1; i < M; ++i) diagonal += rows[i][k] * weighted[i];
+      added_[at(k)] += absolute(diagonal);
       // The lower triangle is enough: rows from this vector's first coordinate on.
       for (int a = std::max(span.begin, k * kLanes); a < span.end; ++a) {
         Lane& h = hessian_[at(a * stride + k)];
@@ -386,6 +404,9 @@ template <class T>
 void Composition<T>::addProducts(const T* scales, int count, const Span& span) {
   const Lane* const d = scratch_.data();
   withStride([&](auto stride) {
+    for (int i = 0; i < count; ++i)
+      for (int k = span.begin / kLanes; k < stride; ++k)
+        added_[at(k)] += std::abs(scales[i]) * d[i * stride + k] * d[i * stride + k];
     for (int a = span.begin; a < span.end; ++a) {
       Lane* const h = hessian_.data() + a * stride;
       const int last = stride == 1 ? 0 : a / kLanes;

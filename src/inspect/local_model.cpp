@@ -14,8 +14,8 @@ namespace {
 void decompose(const Derivative& derivative, LocalModel& model) {
   const int n = model.dimension;
   Gaussian gaussian;
-  ad::SymmetricEigen<kMaxDerivativeDimension> eigen;
-  double matrix[kMaxDerivativeDimension * kMaxDerivativeDimension];
+  ad::SymmetricEigen<kMaxCoordinates> eigen;
+  double matrix[kMaxCoordinates * kMaxCoordinates];
   for (int i = 0, k = 0; i < n; ++i)
     for (int j = 0; j <= i; ++j, ++k) matrix[i * n + j] = derivative.hessian[k];
   // The Gaussian makes the same decomposition: its vectors come in the same order.

@@ -90,7 +90,7 @@ bool hamiltonianGaussian(const Derivative& derivative, const HamiltonianSettings
   // Rows as long as they have to be.
   if (derivative.dimension <= 8) return sharpen<8>(derivative, settings, trajectory, gaussian);
   if (derivative.dimension <= 16) return sharpen<16>(derivative, settings, trajectory, gaussian);
-  return sharpen<kMaxDerivativeDimension>(derivative, settings, trajectory, gaussian);
+  return sharpen<kMaxCoordinates>(derivative, settings, trajectory, gaussian);
 }
 
 void Gaussian::sample(Random& random, float* offset) const {

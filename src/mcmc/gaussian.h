@@ -16,9 +16,9 @@ struct HamiltonianSettings {
 struct Gaussian {
   int dimension = 0;
   bool isotropic = false;  // eigenvectors are the axes and not stored
-  float deviation[kMaxDerivativeDimension];
-  float mean[kMaxDerivativeDimension];                               // along the eigenvectors
-  float vectors[kMaxDerivativeDimension * kMaxDerivativeDimension];  // one after the other
+  float deviation[kMaxCoordinates];
+  float mean[kMaxCoordinates];                               // along the eigenvectors
+  float vectors[kMaxCoordinates * kMaxCoordinates];  // one after the other
   double logNormalisation = 0;  // -sum of log(deviation); the power of 2 pi is left out
 
   // An offset drawn from it.

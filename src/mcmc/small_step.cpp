@@ -118,7 +118,7 @@ bool HamiltonianStep::propose(ChainState& current, ChainState& proposed, Mutatio
   const bool hasTime = target_.hasTime();
   ++context.derivatives.steps;
   prepare(current, context);
-  float offset[kMaxDerivativeDimension];
+  float offset[kMaxCoordinates];
   current.gaussian.sample(*context.random, offset);
   // Time that the path does not depend on: the prior.
   for (int i = current.gaussian.dimension; i < dimension + hasTime; ++i)
@@ -135,7 +135,7 @@ bool HamiltonianStep::propose(ChainState& current, ChainState& proposed, Mutatio
   // The way back must be one that the reverse proposal can take.
   if (to.wraps != from.wraps) return false;
   prepare(proposed, context);
-  float forward[kMaxDerivativeDimension], back[kMaxDerivativeDimension];
+  float forward[kMaxCoordinates], back[kMaxCoordinates];
   offsetBetween(from.sample, to.sample, dimension, from.wraps, forward);
   forward[dimension] = to.sample.time - from.sample.time;
   for (int i = 0; i <= dimension; ++i) back[i] = -forward[i];

@@ -148,6 +148,55 @@ TYPED_TEST(AdComposition, OneTermIsItself) {
   EXPECT_EQ(c.sum(c.none(), 0), 0);
 }
 
+// What differentiate() returns: 1 where terms have one sign, what they are over what is left where not.
+TYPED_TEST(AdComposition, TellsHowMuchTermsCancel) {
+  using T = TypeParam;
+  using D = Dual2<T, 2>;
+  Composition<T> c;
+  // Of 20 coordinates, which are in more than one vector.
+  std::vector<T> u(20, T(0.5)), gradient(20), hessian(210);
+  // scale (u_i u_i + 3 u_i u_j)
+  const auto quadratic = [&](int i, int j, T scale) {
+    D* const outputs = c.template outputs<2>(1);
+    const D x = D::variable(u[static_cast<std::size_t>(i)], 0),
+            y = D::variable(u[static_cast<std::size_t>(j)], 1);
+    outputs[0] = (x * x + x * y * T(3)) * scale;
+    const int inputs[2] = {i, j};
+    return c.apply(inputs, 1);
+  };
+  const auto magnified = [&](std::initializer_list<std::array<int, 3>> terms) {
+    c.begin(u.data(), 20);
+    int sum = c.none();
+    for (const auto& [i, j, scale] : terms) sum = c.sum(sum, quadratic(i, j, T(scale)));
+    return c.differentiate(sum, gradient.data(), hessian.data());
+  };
+  const T tolerance = 100 * std::numeric_limits<T>::epsilon();
+  for (const int j : {1, 19}) {
+    EXPECT_NEAR(magnified({{0, j, 5}, {0, j, 4}}), T(2) / T(3), tolerance);
+    // 2 * 1999 on the diagonal, of which 2 is left, and 3 beside it.
+    EXPECT_NEAR(magnified({{0, j, 1000}, {0, j, -999}}), T(3998) / T(3), 3998 * tolerance);
+    EXPECT_NEAR(magnified({{0, j, 1000}, {0, j, -1000}}), T(4000), 4000 * tolerance);
+    // Others cancel, but they are small beside what is left.
+    EXPECT_NEAR(magnified({{0, j, 10}, {0, j, -10}, {j, 3, 1000}}), T(2) / T(3), tolerance);
+  }
+}
+
+// The same of what bends log-sum-exp.
+TYPED_TEST(AdComposition, TellsHowMuchLogSumExpCancels) {
+  using T = TypeParam;
+  Composition<T> c;
+  const T u[2] = {T(0.5), T(0.5)};
+  T gradient[2], hessian[3];
+  c.begin(u, 2);
+  const int z[2] = {0, 1};
+  // Each has a Hessian of +-25 everywhere.
+  const int a = c.logSumExp(z, 2, T(100)),
+            b = c.logSumExpOfSum(0, c.constant(T(0)), 1, c.none(), T(100));
+  const T magnified = c.differentiate(c.linear({{a, T(3)}, {b, T(-2)}}), gradient, hessian);
+  EXPECT_NEAR(hessian[0], T(25), T(1e-3));
+  EXPECT_NEAR(magnified, T(5), T(1e-3));
+}
+
 // The fused form of what sum() and logSumExp() make in three steps.
 TYPED_TEST(AdComposition, LogSumExpOfSum) {
   using T = TypeParam;

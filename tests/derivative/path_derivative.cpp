@@ -93,7 +93,7 @@ TEST_P(PathDerivative, LocalFormIsThePlainOne) {
   double worst = 0;
   techniques_ =
       test::forSampledPaths(*scene_, GetParam().maxLength, 10, 3000, [&](const Path& path, float) {
-        double u[kMostCoordinates];
+        double u[kMaxCoordinates];
         pathCoordinates(path, u);
         const auto plain = differentiateInDouble(*scene_, path, u);
         const auto local = differentiateLocallyInDouble(*scene_, path, u);

@@ -126,7 +126,7 @@ bool neighbour(const Scene& scene, const std::vector<double>& reach,
                ad::DerivativeValues& there) {
   const int own = near.technique.dimension();
   const bool moving = near.moving;
-  double u[kMostCoordinates];
+  double u[kMaxCoordinates];
   pathCoordinates(near, u);
   for (std::size_t i = 0; i < reach.size(); ++i) {
     const double moved = u[i] + reach[i] * (2 * random.uniformDouble() - 1);

@@ -16,7 +16,7 @@ constexpr int kBlock = 16;
 
 ad::DerivativeValues exactDerivative(const Scene& scene, const Path& path,
                                      const GradcheckSettings& settings) {
-  double u[kMostCoordinates];
+  double u[kMaxCoordinates];
   pathCoordinates(path, u);
   return settings.exact ? settings.exact(scene, path, u) : differentiateInDouble(scene, path, u);
 }
@@ -63,7 +63,7 @@ PathTraits traitsOf(const Scene& scene, const Path& path) {
 std::vector<double> largestSteps(const Path& path) {
   constexpr double kLargest = 1.0 / 16;
   std::vector<double> steps(static_cast<std::size_t>(path.dimension()), kLargest);
-  double coordinates[kMostCoordinates];
+  double coordinates[kMaxCoordinates];
   pathCoordinates(path, coordinates);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const double u = coordinates[i];
@@ -94,7 +94,7 @@ PathCheck checkPath(const Scene& scene, const SampledPath& sampled,
   result.traits = traitsOf(scene, path);
   const ad::DerivativeValues exact = exactDerivative(scene, path, settings);
   const ad::PlainFunction f = [&](const double* u) { return replayInDouble(scene, path, u); };
-  double u[kMostCoordinates];
+  double u[kMaxCoordinates];
   pathCoordinates(path, u);
   ad::DerivativeCheck check = ad::checkDerivative(f, u, path.dimension(), largestSteps(path).data(),
                                                   exact, settings.tolerance);

@@ -235,7 +235,7 @@ json sweepOf(const Scene& scene, const SampledPath& sampled, const ad::Derivativ
   path.technique = sampled.technique;
   path.sample = sampled.sample;
   if (!tracePath(scene, path)) return nullptr;
-  double u[kMostCoordinates];
+  double u[kMaxCoordinates];
   pathCoordinates(path, u);
   const std::vector<double> largest = largestSteps(path);
   const double step = largest[static_cast<std::size_t>(row)];

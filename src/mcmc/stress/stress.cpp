@@ -38,7 +38,7 @@ PathFinding look(const Scene& scene, const SampledPath& sampled) {
   differentiate(scene, path, derivative);
   found.fallback = !hamiltonianGaussian(derivative, HamiltonianSettings(), gaussian);
 
-  double u[kMostCoordinates];
+  double u[kMaxCoordinates];
   pathCoordinates(path, u);
   const ad::DerivativeValues exact = path.technique.length() <= kLongestPlain
                                          ? differentiateInDouble(scene, path, u)

@@ -6,7 +6,8 @@
 // faster for short paths.
 //
 // The local one differentiates each vertex's own step and composes the steps (local_form.h): the cost
-// of a vertex does not grow with the path.
+// of a vertex does not grow with the path. Where the steps' second derivatives all but cancel, it is done
+// again in double.
 #pragma once
 
 #include "render/path/path.h"
@@ -19,14 +20,12 @@ namespace h2mc {
 #define H2MC_DERIVATIVE_EDGES 4
 #endif
 inline constexpr int kMaxPlainDimension = 2 * H2MC_DERIVATIVE_EDGES;
-// Coordinates of the longest path there is.
-inline constexpr int kMaxDerivativeDimension = 2 * kMaxPathLength + 1;
 
 struct Derivative {
   int dimension = 0;
   float logTarget = 0;
-  float gradient[kMaxDerivativeDimension];
-  float hessian[kMaxDerivativeDimension * (kMaxDerivativeDimension + 1) / 2];  // lower, by rows
+  float gradient[kMaxCoordinates];
+  float hessian[kMaxCoordinates * (kMaxCoordinates + 1) / 2];  // lower, by rows
 
   // All entries finite.
   bool finite() const;
@@ -37,8 +36,8 @@ struct Derivative {
 // the last coordinate. Precondition: path.target > 0.
 void differentiate(const Scene& scene, const Path& path, Derivative& result);
 
-// The same by either form. The plain one is there for paths that do not depend on time, of at most
-// kMaxPlainDimension coordinates, and false for others.
+// The same by either form. The plain one is there for paths that do not depend on time and meet nothing
+// perfectly smooth, of at most kMaxPlainDimension coordinates, and false for others.
 bool differentiatePlainly(const Scene& scene, const Path& path, Derivative& result);
 void differentiateLocally(const Scene& scene, const Path& path, Derivative& result);
 

@@ -19,7 +19,7 @@ ad::DerivativeValues differentiateInDouble(const Scene& scene, const Path& path,
   ad::DerivativeValues result;
   result.gradient.resize(static_cast<std::size_t>(n));
   result.hessian.resize(static_cast<std::size_t>(n) * static_cast<std::size_t>(n + 1) / 2);
-  Dual x[kMostCoordinates];
+  Dual x[kMaxCoordinates];
   for (int a = 0; a < blocks; ++a) {
     // Every pair; all of them hold each block's own entries. A single block has an empty partner.
     for (int b = a + 1; b < std::max(blocks, 2); ++b) {
@@ -45,17 +45,12 @@ ad::DerivativeValues differentiateInDouble(const Scene& scene, const Path& path,
 
 ad::DerivativeValues differentiateLocallyInDouble(const Scene& scene, const Path& path,
                                                   const double* u) {
-  ad::Composition<double> composition;
-  const int target = path.moving ? LocalForm<double, true>(scene, path, composition).logTarget(u)
-                                 : LocalForm<double, false>(scene, path, composition).logTarget(u);
   const auto n = static_cast<std::size_t>(path.dimension());
   ad::DerivativeValues result;
   result.gradient.resize(n);
   result.hessian.resize(n * (n + 1) / 2);
   result.value = -std::numeric_limits<double>::infinity();
-  if (target < 0) return result;
-  result.value = composition.value(target);
-  composition.differentiate(target, result.gradient.data(), result.hessian.data());
+  composeDerivatives(scene, path, u, result.value, result.gradient.data(), result.hessian.data());
   return result;
 }
 

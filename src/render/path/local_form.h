@@ -115,6 +115,20 @@ class LocalForm {
   int termCount_ = 0;
 };
 
+// Value, gradient and the Hessian's lower triangle of the path's log target at `u`. Returns by how much
+// rounding is magnified (ad::Composition::differentiate); -1, and nothing else, where a factor has
+// underflowed.
+template <class S>
+S composeDerivatives(const Scene& scene, const Path& path, const S* u, S& value, S* gradient,
+                     S* hessian) {
+  static thread_local ad::Composition<S> composition;
+  const int target = path.moving ? LocalForm<S, true>(scene, path, composition).logTarget(u)
+                                 : LocalForm<S, false>(scene, path, composition).logTarget(u);
+  if (target < 0) return S(-1);
+  value = composition.value(target);
+  return composition.differentiate(target, gradient, hessian);
+}
+
 extern template class LocalForm<float, false>;
 extern template class LocalForm<float, true>;
 extern template class LocalForm<double, false>;

@@ -113,6 +113,14 @@ bool isConstant(const D& a) {
   return std::memcmp(a.g, zero.g, sizeof a.g) == 0 && std::memcmp(a.h, zero.h, sizeof a.h) == 0;
 }
 
+// A scattering's vc over the cosine of what it scatters. At a mirror both are one function, of which
+// nothing is left: computed, its second derivatives where light grazes would leave their rounding.
+template <class D>
+D overCosIn(const Scattering<D>& scattering, const Arrival<D>& vertex) {
+  if (scattering.delta && same(scattering.vc, vertex.cosIn)) return D(Scalar<D>(1));
+  return scattering.vc / vertex.cosIn;
+}
+
 // Channels with the same factor share an output; a constant needs none.
 template <class S, bool kMoving>
 template <int M>
@@ -233,15 +241,14 @@ void LocalForm<S, kMoving>::scatter(Side side, int index) {
   logFactor(step, s.factor, throughput);
   // What is zero by now stays so: its logarithm is not needed.
   const bool hasVc = subpath.vc != kNone;
-  const int factor = hasVc || !s.delta ? step.addLog(s.vc / vertex.cosIn) : kNone;
+  const int factor = hasVc || !s.delta ? step.addLog(overCosIn(s, vertex)) : kNone;
   const int reverse = hasVc && !s.delta ? step.addLog(s.reverse) : kNone;
   step.apply();
-  const Variable scale = step.variable(factor);
-  if (scale == kNone)
+  if (const Variable scale = step.variable(factor); scale == kNone)
     subpath.vc = kNone;
   else if (!s.delta)
     subpath.vc = logRoot(subpath, step.variable(reverse), scale);
-  else if (subpath.vc != kNone)
+  else if (hasVc)
     subpath.vc = composition_.sum(subpath.vc, scale);
   arrive(step, leaving, subpath);
   multiply(step, throughput);
@@ -273,7 +280,7 @@ void LocalForm<S, kMoving>::scatterToEnvironment() {
   logFactor(step, s.factor * link.value, out);
   if (value(link.camera.vcm) > 0 && !s.delta) vcm = step.addLog(s.vcm * link.camera.vcm);
   if (value(link.camera.vc) > 0) {
-    vc = step.addLog(s.vc * link.camera.vc / vertex.cosIn);
+    vc = step.addLog(overCosIn(s, vertex) * link.camera.vc);
     if (camera_.vc != kNone && !s.delta) reverse = step.addLog(s.reverse);
   }
   step.apply();

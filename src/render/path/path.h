@@ -1,6 +1,7 @@
 // A path with all that is known of it: primary sample, topology, vertices, contribution.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "render/path/connect.h"
@@ -42,6 +43,16 @@ struct Path {
   // Continuous coordinates that it depends on: the technique's, then time where it is `moving`.
   int dimension() const { return technique.dimension() + (moving ? 1 : 0); }
 };
+
+// Coordinates of the longest path there is.
+inline constexpr int kMaxCoordinates = 2 * kMaxPathLength + 1;
+
+// The path.dimension() coordinates that it is at, time last.
+template <class S>
+void pathCoordinates(const Path& path, S* u) {
+  std::copy_n(path.sample.u.begin(), path.technique.dimension(), u);
+  if (path.moving) u[path.technique.dimension()] = S(path.sample.time);
+}
 
 // Traces `path.technique` at `path.sample` and fills in the rest. Returns target > 0.
 // Never allocates. Precondition: technique.length() <= the path's maxLength.

@@ -7,10 +7,6 @@
 
 namespace h2mc {
 
-// The path.dimension() coordinates of a path: those of its technique, then time where it depends on it.
-inline constexpr int kMostCoordinates = 2 * kMaxPathLength + 1;
-void pathCoordinates(const Path& path, double* u);
-
 // log(target) at `u` on the path's frozen topology; -inf or NaN where nothing is there.
 double replayInDouble(const Scene& scene, const Path& path, const double* u);
 
