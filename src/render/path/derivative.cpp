@@ -28,32 +28,46 @@ namespace {
 constexpr int kMostForPlain = 8;
 static_assert(kMostForPlain <= kMaxPlainDimension);
 
-// Where light grazes something perfectly smooth, and near glass' critical angle, the second derivatives of
-// the cosines on both sides are large, and all but cancel. How large they are: the sum of 1 / cos^2 over the
-// directions before and after all such vertices; 0 if the path meets nothing of the kind.
-float smoothCurvature(const Scene& scene, const Path& path) {
-  float sum = 0;
-  const auto add = [&](const std::vector<TracedVertex>& subpath, int scatterings, int vertices) {
-    for (int i = 1; i <= scatterings; ++i) {
+// What a path asks of float: the second derivatives of log |cos| are 1 / cos^2 and more where light grazes a
+// surface, and before and after something perfectly smooth they all but cancel, near glass' critical angle too.
+struct Demands {
+  bool smooth = false;  // the path meets something perfectly smooth
+  // The sum of 1 / cos^2 over the directions before and after such vertices, and of a part of it over those
+  // in which the path arrives at others.
+  float curvature = 0;
+};
+constexpr float kPartOfOthers = 1.f / 64;
+
+Demands demandsOf(const Scene& scene, const Path& path) {
+  Demands demands;
+  // Of the vertices after the eye or the light, up to number `last`.
+  const auto add = [&](const std::vector<TracedVertex>& subpath, int last, int scatterings) {
+    for (int i = 1; i <= last; ++i) {
       const TracedVertex& v = subpath[static_cast<std::size_t>(i)];
-      if (v.lobe.null || !isDelta(scene.bsdfs, materialAt(scene, v.id), v.lobe)) continue;
+      const float before = 1 / squared(v.vertex.wi.z);
+      if (i > scatterings || v.lobe.null ||
+          !isDelta(scene.bsdfs, materialAt(scene, v.id), v.lobe)) {
+        demands.curvature += kPartOfOthers * before;
+        continue;
+      }
       const SurfacePoint<float>& point = v.vertex.point;
       const Vec3f onwards =
-          i + 1 < vertices
+          i < last
               ? glm::normalize(subpath[static_cast<std::size_t>(i) + 1].vertex.point.p - point.p)
               : path.lastRay.direction;
-      sum += 1 / squared(v.vertex.wi.z) + 1 / squared(glm::dot(point.shading.n, onwards));
+      demands.smooth = true;
+      demands.curvature += before + 1 / squared(glm::dot(point.shading.n, onwards));
     }
   };
   const auto [s, t] = path.technique;
-  add(path.camera, path.technique.cameraScatterings(), path.escaped ? t - 1 : t);
-  add(path.light, path.technique.lightScatterings(), s);
-  return sum;
+  add(path.camera, path.escaped ? t - 2 : t - 1, path.technique.cameraScatterings());
+  add(path.light, s - 1, path.technique.lightScatterings());
+  return demands;
 }
 
 // By how much a Hessian's rounding may be magnified, and how large those derivatives may be, before it is
 // worth the time to do it in double.
-constexpr float kMostMagnified = 16, kMostCurvature = 64;
+constexpr float kMostMagnified = 32, kMostCurvature = 24;
 
 void noDerivatives(Derivative& result) {
   result.logTarget = -std::numeric_limits<float>::infinity();
@@ -110,14 +124,15 @@ bool Derivative::finite() const {
 
 bool differentiatePlainly(const Scene& scene, const Path& path, Derivative& result) {
   result.dimension = path.dimension();
-  return result.dimension <= kMaxPlainDimension && !path.moving &&
-         smoothCurvature(scene, path) == 0 && dispatch<2>(scene, path, result);
+  if (result.dimension > kMaxPlainDimension || path.moving) return false;
+  const Demands demands = demandsOf(scene, path);
+  return !demands.smooth && demands.curvature <= kMostCurvature && dispatch<2>(scene, path, result);
 }
 
 void differentiateLocally(const Scene& scene, const Path& path, Derivative& result) {
   result.dimension = path.dimension();
   float magnified = std::numeric_limits<float>::infinity();
-  if (smoothCurvature(scene, path) <= kMostCurvature &&
+  if (demandsOf(scene, path).curvature <= kMostCurvature &&
       !differentiateInFloat(scene, path, result, magnified))
     return noDerivatives(result);
   if (magnified > kMostMagnified && !differentiateByDouble(scene, path, result))

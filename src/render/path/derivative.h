@@ -6,8 +6,8 @@
 // faster for short paths.
 //
 // The local one differentiates each vertex's own step and composes the steps (local_form.h): the cost
-// of a vertex does not grow with the path. Where the steps' second derivatives all but cancel, it is done
-// again in double.
+// of a vertex does not grow with the path. Where the steps' second derivatives all but cancel, or are
+// likely to, it is done in double.
 #pragma once
 
 #include "render/path/path.h"
@@ -36,8 +36,8 @@ struct Derivative {
 // the last coordinate. Precondition: path.target > 0.
 void differentiate(const Scene& scene, const Path& path, Derivative& result);
 
-// The same by either form. The plain one is there for paths that do not depend on time and meet nothing
-// perfectly smooth, of at most kMaxPlainDimension coordinates, and false for others.
+// The same by either form. The plain one is there for paths of at most kMaxPlainDimension coordinates that
+// do not depend on time, meet nothing perfectly smooth and graze nothing, and false for others.
 bool differentiatePlainly(const Scene& scene, const Path& path, Derivative& result);
 void differentiateLocally(const Scene& scene, const Path& path, Derivative& result);
 
