@@ -17,7 +17,7 @@ struct Gaussian {
   int dimension = 0;
   bool isotropic = false;  // eigenvectors are the axes and not stored
   float deviation[kMaxCoordinates];
-  float mean[kMaxCoordinates];                               // along the eigenvectors
+  float mean[kMaxCoordinates];                       // along the eigenvectors
   float vectors[kMaxCoordinates * kMaxCoordinates];  // one after the other
   double logNormalisation = 0;  // -sum of log(deviation); the power of 2 pi is left out
 
