@@ -19,6 +19,7 @@ import sys
 ROWS = [
     ("derivative", "derivatives, vertex-local", None),
     ("plain derivative", "derivatives, plain", None),
+    ("chosen derivative", "derivatives, as chains choose", None),
     ("derivative+gaussian", "Gaussian made of them", "chosen derivative"),
     ("sample+density", "sampling it, and its density", None),
     ("mutation:isotropic", "isotropic mutation", None),

@@ -38,6 +38,7 @@ struct DerivativeCounts {
   long long dark = 0;   // proposals without a contribution, where none are needed
   long long kept = 0;   // were there already
   long long computed = 0;
+  long long inDouble = 0;   // of these, where float would not do
   long long flat = 0;       // too small to matter against the prior: no eigendecomposition
   long long notFinite = 0;  // the prior took their place
 

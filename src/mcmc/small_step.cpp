@@ -90,6 +90,7 @@ void HamiltonianStep::prepare(ChainState& state, MutationContext& context) const
   Derivative derivative;
   ++context.derivatives.computed;
   target_.differentiate(state.path, derivative);
+  context.derivatives.inDouble += derivative.inDouble;
   const double middle = context.timed ? wallClock() : 0;
   if (!hamiltonianGaussian(derivative, settings_, state.gaussian))
     ++context.derivatives.notFinite;

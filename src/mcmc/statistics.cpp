@@ -34,14 +34,16 @@ void DerivativeCounts::add(const DerivativeCounts& other) {
   dark += other.dark;
   kept += other.kept;
   computed += other.computed;
+  inDouble += other.inDouble;
   flat += other.flat;
   notFinite += other.notFinite;
 }
 
 nlohmann::json DerivativeCounts::json() const {
-  return {{"steps", steps},     {"proposals without contribution", dark},
-          {"kept", kept},       {"computed", computed},
-          {"negligible", flat}, {"not finite", notFinite}};
+  return {{"steps", steps},         {"proposals without contribution", dark},
+          {"kept", kept},           {"computed", computed},
+          {"in double", inDouble},  {"negligible", flat},
+          {"not finite", notFinite}};
 }
 
 void ChainStatistics::add(const ChainStatistics& other) {

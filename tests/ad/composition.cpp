@@ -148,7 +148,7 @@ TYPED_TEST(AdComposition, OneTermIsItself) {
   EXPECT_EQ(c.sum(c.none(), 0), 0);
 }
 
-// What differentiate() returns: 1 where terms have one sign, what they are over what is left where not.
+// What differentiate() returns: what the terms are over what is left of them, 1 at most where nothing cancels.
 TYPED_TEST(AdComposition, TellsHowMuchTermsCancel) {
   using T = TypeParam;
   using D = Dual2<T, 2>;

@@ -45,14 +45,17 @@ const SampledScene* sampledScene(const std::string& file) {
 
 // Runs `work(scene, path)` on the scene's paths of one length, one after the other.
 template <class Work>
-void overPaths(benchmark::State& state, const std::string& file, int length, Work&& work) {
+void overPaths(benchmark::State& state, const std::string& file, int length, Work&& work,
+               bool (*wanted)(const Scene&, const Path&) = nullptr) {
   const SampledScene* sampled = sampledScene(file);
   if (!sampled) return state.SkipWithError("no such scene");
-  const std::vector<Path>& paths = sampled->byLength[static_cast<std::size_t>(length)];
+  std::vector<const Path*> paths;
+  for (const Path& path : sampled->byLength[static_cast<std::size_t>(length)])
+    if (!wanted || wanted(sampled->scene, path)) paths.push_back(&path);
   if (paths.empty()) return state.SkipWithError("no path of this length");
   std::size_t i = 0;
   for (auto _ : state) {
-    work(sampled->scene, paths[i]);
+    work(sampled->scene, *paths[i]);
     if (++i == paths.size()) i = 0;
   }
 }
@@ -74,10 +77,16 @@ void derivative(benchmark::State& state, const std::string& file, int length) {
 void plainDerivative(benchmark::State& state, const std::string& file, int length) {
   if (2 * length > kMaxPlainDimension) return state.SkipWithError("not compiled");
   Derivative result;
-  overPaths(state, file, length, [&](const Scene& scene, const Path& path) {
-    differentiatePlainly(scene, path, result);
-    benchmark::DoNotOptimize(result);
-  });
+  overPaths(
+      state, file, length,
+      [&](const Scene& scene, const Path& path) {
+        differentiatePlainly(scene, path, result);
+        benchmark::DoNotOptimize(result);
+      },
+      [](const Scene& scene, const Path& path) {
+        Derivative unused;
+        return differentiatePlainly(scene, path, unused);
+      });
 }
 
 // The derivatives in the form that is chosen, and with the Gaussian made of them: the difference is the

@@ -112,6 +112,24 @@ bool dispatch(const Scene& scene, const Path& path, Derivative& result) {
   }
 }
 
+bool plainly(const Scene& scene, const Path& path, const Demands& demands, Derivative& result) {
+  result.dimension = path.dimension();
+  result.inDouble = false;
+  return result.dimension <= kMaxPlainDimension && !path.moving && !demands.smooth &&
+         demands.curvature <= kMostCurvature && dispatch<2>(scene, path, result);
+}
+
+void locally(const Scene& scene, const Path& path, const Demands& demands, Derivative& result) {
+  result.dimension = path.dimension();
+  float magnified = std::numeric_limits<float>::infinity();
+  bool found = true;
+  if (demands.curvature <= kMostCurvature)
+    found = differentiateInFloat(scene, path, result, magnified);
+  result.inDouble = found && magnified > kMostMagnified;
+  if (result.inDouble) found = differentiateByDouble(scene, path, result);
+  if (!found) noDerivatives(result);
+}
+
 }  // namespace
 
 bool Derivative::finite() const {
@@ -123,25 +141,17 @@ bool Derivative::finite() const {
 }
 
 bool differentiatePlainly(const Scene& scene, const Path& path, Derivative& result) {
-  result.dimension = path.dimension();
-  if (result.dimension > kMaxPlainDimension || path.moving) return false;
-  const Demands demands = demandsOf(scene, path);
-  return !demands.smooth && demands.curvature <= kMostCurvature && dispatch<2>(scene, path, result);
+  return plainly(scene, path, demandsOf(scene, path), result);
 }
 
 void differentiateLocally(const Scene& scene, const Path& path, Derivative& result) {
-  result.dimension = path.dimension();
-  float magnified = std::numeric_limits<float>::infinity();
-  if (demandsOf(scene, path).curvature <= kMostCurvature &&
-      !differentiateInFloat(scene, path, result, magnified))
-    return noDerivatives(result);
-  if (magnified > kMostMagnified && !differentiateByDouble(scene, path, result))
-    noDerivatives(result);
+  locally(scene, path, demandsOf(scene, path), result);
 }
 
 void differentiate(const Scene& scene, const Path& path, Derivative& result) {
-  if (path.dimension() > kMostForPlain || !differentiatePlainly(scene, path, result))
-    differentiateLocally(scene, path, result);
+  const Demands demands = demandsOf(scene, path);
+  if (path.dimension() > kMostForPlain || !plainly(scene, path, demands, result))
+    locally(scene, path, demands, result);
 }
 
 }  // namespace h2mc

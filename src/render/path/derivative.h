@@ -24,6 +24,7 @@ inline constexpr int kMaxPlainDimension = 2 * H2MC_DERIVATIVE_EDGES;
 struct Derivative {
   int dimension = 0;
   float logTarget = 0;
+  bool inDouble = false;  // float would not do
   float gradient[kMaxCoordinates];
   float hessian[kMaxCoordinates * (kMaxCoordinates + 1) / 2];  // lower, by rows
 
