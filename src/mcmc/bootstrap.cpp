@@ -16,50 +16,61 @@ constexpr long long kBlock = 4096;
 
 Bootstrap::Bootstrap(const Scene& scene, int minLength, int maxLength, long long samples,
                      std::uint64_t seed, int threads, const std::atomic<bool>* stop)
-    : scene_(scene), minLength_(minLength), maxLength_(maxLength), seed_(seed) {
-  const TechniqueDistribution techniques(minLength, maxLength);
-  const auto count = static_cast<std::size_t>(techniques.size());
+    : scene_(scene),
+      minLength_(minLength),
+      maxLength_(maxLength),
+      seed_(seed),
+      threads_(threads),
+      stop_(stop) {
+  const auto count = static_cast<std::size_t>(TechniqueDistribution(minLength, maxLength).size());
+  for (auto* sum : {&techniqueSum_, &techniqueSquareSum_}) sum->assign(count, 0);
+  extendTo(samples);
+}
+
+void Bootstrap::extendTo(long long samples) {
+  const auto had = static_cast<long long>(cumulative_.size());
+  if (samples <= had) return;
+  const TechniqueDistribution techniques(minLength_, maxLength_);
+  const std::size_t count = techniqueSum_.size();
   struct Block {
-    std::vector<double> mean, squares;
+    std::vector<double> sum, squares;
     long long notFinite = 0, samples = 0;
   };
-  const auto blocks = static_cast<int>((samples + kBlock - 1) / kBlock);
+  const auto blocks = static_cast<int>((samples - had + kBlock - 1) / kBlock);
   std::vector<Block> block(static_cast<std::size_t>(blocks));
   cumulative_.resize(static_cast<std::size_t>(samples));
-  parallelFor(threads, blocks, [&](int b) {
+  parallelFor(threads_, blocks, [&](int b) {
     Block& own = block[static_cast<std::size_t>(b)];
-    if (b > 0 && stop && *stop) return;
-    own.mean.assign(count, 0);
+    if ((had > 0 || b > 0) && stop_ && *stop_) return;
+    own.sum.assign(count, 0);
     own.squares.assign(count, 0);
-    BidirectionalSampler sampler(maxLength);
-    const long long first = b * kBlock, end = std::min(samples, first + kBlock);
+    BidirectionalSampler sampler(maxLength_);
+    const long long first = had + b * kBlock, end = std::min(samples, first + kBlock);
     own.samples = end - first;
     for (long long i = first; i < end; ++i) {
-      Random random(seed, kStream, static_cast<std::uint64_t>(i));
+      Random random(seed_, kStream, static_cast<std::uint64_t>(i));
       double sum = 0;
       own.notFinite += sampler.sample(
-          scene, random, -1, -1, minLength, [&](const BidirectionalSampler::Connection& c) {
+          scene_, random, -1, -1, minLength_, [&](const BidirectionalSampler::Connection& c) {
             const double y = h2mc::luminance(c.contribution);
             const auto k = static_cast<std::size_t>(techniques.index(c.technique));
-            own.mean[k] += y;
+            own.sum[k] += y;
             own.squares[k] += y * y;
             sum += y;
           });
       cumulative_[static_cast<std::size_t>(i)] = sum;
     }
   });
-  techniqueMean_.assign(count, 0);
-  techniqueSquares_.assign(count, 0);
-  double total = 0;
-  auto at = cumulative_.begin();
+  double total = had > 0 ? cumulative_[static_cast<std::size_t>(had) - 1] : 0;
+  auto at = cumulative_.begin() + had;
   for (const Block& own : block) {
     if (own.samples == 0) {  // stopped: nobody starts there
       for (long long i = 0; i < kBlock && at != cumulative_.end(); ++i) *at++ = total;
       continue;
     }
     for (std::size_t k = 0; k < count; ++k) {
-      techniqueMean_[k] += own.mean[k];
-      techniqueSquares_[k] += own.squares[k];
+      techniqueSum_[k] += own.sum[k];
+      techniqueSquareSum_[k] += own.squares[k];
     }
     notFinite_ += own.notFinite;
     for (long long i = 0; i < own.samples; ++i, ++at) {
@@ -68,13 +79,15 @@ Bootstrap::Bootstrap(const Scene& scene, int minLength, int maxLength, long long
     }
   }
   const auto traced = static_cast<double>(luminance_.count);
+  techniqueMean_ = techniqueSum_;
+  techniqueSquares_ = techniqueSquareSum_;
   for (double& mean : techniqueMean_) mean /= traced;
   for (double& square : techniqueSquares_) square /= traced;
 }
 
-void Bootstrap::drawStart(Random& random, Path& start) const {
-  const double u = random.uniformDouble() * cumulative_.back();
-  const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), u);
+void Bootstrap::drawStart(double u, Random& random, Path& start) const {
+  const auto found =
+      std::upper_bound(cumulative_.begin(), cumulative_.end(), u * cumulative_.back());
   const auto index = std::min(found, cumulative_.end() - 1) - cumulative_.begin();
 
   // The sample again, and one of its techniques in proportion to what it adds.

@@ -24,6 +24,8 @@ class Bootstrap {
   // if it is given, no more samples are begun; some there are always.
   Bootstrap(const Scene& scene, int minLength, int maxLength, long long samples, std::uint64_t seed,
             int threads, const std::atomic<bool>* stop = nullptr);
+  // The same as if it had been made with so many; with fewer than there are, nothing.
+  void extendTo(long long samples);
 
   // Luminance of a whole sample: its mean is the film's mean luminance (of these path lengths).
   const Moments& luminance() const { return luminance_; }
@@ -32,17 +34,20 @@ class Bootstrap {
   const std::vector<double>& techniqueSquares() const { return techniqueSquares_; }
   long long notFinite() const { return notFinite_; }
 
-  // A path drawn in proportion to its target, evaluated. Precondition: luminance().mean() > 0.
-  // Throws ReplayError.
-  void drawStart(Random& random, Path& start) const;
+  // A path drawn in proportion to its target, evaluated: the sample that u, in [0, 1), falls on where
+  // all lie side by side, and one of its techniques. Precondition: luminance().mean() > 0. Throws
+  // ReplayError.
+  void drawStart(double u, Random& random, Path& start) const;
 
  private:
   const Scene& scene_;
   int minLength_, maxLength_;
   std::uint64_t seed_;
+  int threads_;
+  const std::atomic<bool>* stop_;
   std::vector<double> cumulative_;  // of the samples' luminances
   Moments luminance_;
-  std::vector<double> techniqueMean_, techniqueSquares_;
+  std::vector<double> techniqueSum_, techniqueSquareSum_, techniqueMean_, techniqueSquares_;
   long long notFinite_ = 0;
 };
 

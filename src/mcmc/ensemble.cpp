@@ -62,11 +62,14 @@ ChainEnsemble::ChainEnsemble(const Scene& scene, const MetropolisMethod& method,
                        0,
                        0});
   }
+  // Starts are spread evenly over the bootstrap's samples: by chance, none has more chains than its share.
+  const double offset =
+      Random(seed_, kStartStream, static_cast<std::uint64_t>(chains_)).uniformDouble();
   parallelFor(threads_, groups, [&](int g) {
     Path start(maxLength_);
     for (int c = g; c < chains_; c += groups) {
       Random random(seed_, kStartStream, static_cast<std::uint64_t>(c));
-      bootstrap_.drawStart(random, start);
+      bootstrap_.drawStart((c + offset) / chains_, random, start);
       groups_[static_cast<std::size_t>(g)].chains.push_back(std::make_unique<Chain>(
           target_, start, Random(seed_, kChainStream, static_cast<std::uint64_t>(c))));
     }

@@ -16,6 +16,12 @@ namespace {
 // Mutations of a chain in one round: a round of all chains takes some hundredths of a second.
 constexpr long long kRound = 32;
 
+// Bootstrap samples, unless the options say: a share of the time, or of the mutations, between these. A
+// sample much brighter than the mean holds its share of the chains for longer than most renders take; the
+// more samples there are, the smaller that share is.
+constexpr long long kLeastBootstrap = 100000, kMostBootstrap = 4000000;
+constexpr double kBootstrapOfTime = 0.04, kBootstrapOfMutations = 0.02;
+
 // One render: direct lighting and the chains take turns.
 class MetropolisRender {
  public:
@@ -49,6 +55,8 @@ class MetropolisRender {
     return asked == 0 && !timed() ? options_.integer("mutationsPerPixel") : asked;
   }
   RenderRequest directRequest() const;
+  // `seconds`: what kLeastBootstrap of them took.
+  long long bootstrapSamples(double seconds) const;
   void extendDirect(std::size_t mark);
   void balanceDirect(const ChainEnsemble& chains);
   void endEpoch(ChainEnsemble& chains);
@@ -82,6 +90,14 @@ RenderRequest MetropolisRender::directRequest() const {
           {std::min(now / request_.budget.seconds, 1.0), now, own.rate, own.rateUnit});
     };
   return r;
+}
+
+long long MetropolisRender::bootstrapSamples(double seconds) const {
+  const double samples =
+      timed() ? kBootstrapOfTime * request_.budget.seconds / seconds * kLeastBootstrap
+              : kBootstrapOfMutations * static_cast<double>(mutationsPerPixel_) * pixels();
+  return std::llround(
+      std::clamp<double>(samples, kLeastBootstrap, static_cast<double>(kMostBootstrap)));
 }
 
 // Direct lighting keeps pace with the chains: up to mark i it gets what a render that ends there would
@@ -197,9 +213,11 @@ RenderResult MetropolisRender::withChains(const Bootstrap& bootstrap) {
 RenderResult MetropolisRender::run() {
   extendDirect(0);
   if (minLength_ > maxLength_) return directAlone();
-  const Bootstrap bootstrap(scene_, minLength_, maxLength_,
-                            std::max(1, options_.integer("bootstrapSamples")), request_.seed,
-                            request_.threads, request_.stop);
+  const int wanted = options_.integer("bootstrapSamples");
+  const double before = clock_.wallSeconds();
+  Bootstrap bootstrap(scene_, minLength_, maxLength_, wanted > 0 ? wanted : kLeastBootstrap,
+                      request_.seed, request_.threads, request_.stop);
+  if (wanted == 0) bootstrap.extendTo(bootstrapSamples(clock_.wallSeconds() - before));
   if (bootstrap.luminance().mean() > 0) return withChains(bootstrap);
   spdlog::warn("no light arrives through paths of {} to {} edges: nothing to sample there",
                minLength_, maxLength_);
@@ -210,8 +228,9 @@ class MetropolisIntegrator final : public Integrator {
  public:
   MetropolisIntegrator(const MetropolisMethod& method, const OptionSet& options)
       : method_(method), options_(options), maxLength_(maxPathLength(options)) {
-    for (const char* name : {"minDepth", "mutationsPerPixel", "chains", "bootstrapSamples"})
+    for (const char* name : {"minDepth", "mutationsPerPixel", "chains"})
       requireRange(options, name, 1, kNoLimit);
+    requireRange(options, "bootstrapSamples", 0, kNoLimit);
     requireRange(options, "directSamples", -1, kNoLimit);
     for (const char* name : {"largeStepProbability", "lensProbability"})
       requireRange(options, name, 0, 1);

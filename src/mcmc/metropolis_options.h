@@ -16,8 +16,10 @@ inline constexpr Parameter kMetropolisParameters[] = {
      "samples a pixel of path tracing for paths of up to two edges, which the chains then leave "
      "out; 0: the chains do all, -1: what makes the whole picture least noisy"},
     {"chains", ParameterType::kInteger, "512", "independent Markov chains"},
-    {"bootstrapSamples", ParameterType::kInteger, "100000",
-     "bidirectional samples that place the chains and give the first estimate of the brightness"},
+    {"bootstrapSamples", ParameterType::kInteger, "0",
+     "bidirectional samples that place the chains and give the first estimate of the brightness; "
+     "0: "
+     "100000, and more in a long render"},
     {"largeStepProbability", ParameterType::kNumber, "0.2", "share of large steps"},
     {"largeStep", ParameterType::kString, "bidirectional",
      "what a large step proposes: a connection of a whole bidirectional sample, or one technique",

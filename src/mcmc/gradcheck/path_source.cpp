@@ -130,7 +130,7 @@ std::vector<SampledPath> sampleChains(const Scene& scene, int maxLength, int cou
     ChainFilms films(settings);
     Path start(maxLength);
     Random random(seed, kStartStream, static_cast<std::uint64_t>(c));
-    bootstrap.drawStart(random, start);
+    bootstrap.drawStart(random.uniformDouble(), random, start);
     Chain chain(target, start, Random(seed, kChainStream, static_cast<std::uint64_t>(c)));
     const int share = count / chains + (c < count % chains);
     for (int k = 1; k <= share && !stopped(stop); ++k) {
