@@ -62,7 +62,7 @@ void KernelMixture::learn(const ChainStatistics& statistics) {
       const double acceptance =
           (counts[l].expected + kPrior * mean) / (static_cast<double>(counts[l].proposed) + kPrior);
       const double efficiency = acceptance / small[k].cost;
-      shares[k].push_back(efficiency * efficiency * efficiency);
+      shares[k].push_back(squared(squared(efficiency)));
       totals[l] += shares[k][l];
     }
   }

@@ -60,11 +60,11 @@ struct KernelMixture {
   // log of the probability with which `proposed` chooses the kind over that of `current`.
   double logRatio(std::size_t kind, const Path& current, const Path& proposed) const;
 
-  // Sets the shares of the small steps that have a cost, at each level, in proportion to the cube of
+  // Sets the shares of the small steps that have a cost, at each level, in proportion to the fourth power of
   // acceptance over cost, each at least kLeast of what they have together. A function of what was
   // counted alone. Chains may not be in the middle of a step.
   void learn(const ChainStatistics& statistics);
-  static constexpr double kLeast = 0.02;
+  static constexpr double kLeast = 0.01;
 
  private:
   double smallShare(std::size_t k, const Technique& technique, int level) const;

@@ -68,16 +68,16 @@ TEST(KernelMixture, LearnsWhatPaysAtEachLevel) {
   set(kIsotropic, 8, 0.02);
   set(kHamiltonian, 8, 0.32);
   m.kernels.learn(statistics);
-  // Equally accepted: 1 to 4^-3; sixteen times better for four times the cost: 1 to 4^3.
+  // Equally accepted: 1 to 4^-4; sixteen times better for four times the cost: 1 to 4^4.
   const auto share = [](double odds) {
     return KernelMixture::kLeast + (1 - 2 * KernelMixture::kLeast) * odds / (1 + odds);
   };
   const Path dim = Mixture::state(2), bright = Mixture::state(2 * 256);
   const auto atDim = m.frequencies(dim), atBright = m.frequencies(bright);
-  EXPECT_NEAR(atDim[kHamiltonian], 0.8 * share(1 / 64.), 0.005);
-  EXPECT_NEAR(atBright[kHamiltonian], 0.8 * share(64), 0.005);
+  EXPECT_NEAR(atDim[kHamiltonian], 0.8 * share(1 / 256.), 0.005);
+  EXPECT_NEAR(atBright[kHamiltonian], 0.8 * share(256), 0.005);
   EXPECT_NEAR(atBright[0], 0.2, 0.01);
-  EXPECT_NEAR(m.kernels.logRatio(kHamiltonian, dim, bright), std::log(share(64) / share(1 / 64.)),
+  EXPECT_NEAR(m.kernels.logRatio(kHamiltonian, dim, bright), std::log(share(256) / share(1 / 256.)),
               0.02);
   EXPECT_NEAR(m.kernels.logRatio(kHamiltonian, bright, dim),
               -m.kernels.logRatio(kHamiltonian, dim, bright), 1e-12);
