@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "mcmc/metropolis_integrator.h"
 #include "render/integrator/parallel_rounds.h"
@@ -117,17 +116,6 @@ void ChainEnsemble::Accumulated::add(const Image& states, double statesLuminance
   }
 }
 
-void ChainEnsemble::Accumulated::add(const Accumulated& other) {
-  if (!(other.mutations > 0)) return;
-  perLuminance.resize(other.rest.size(), Rgbf(0));
-  rest.resize(other.rest.size(), Rgbf(0));
-  mutations += other.mutations;
-  for (std::size_t i = 0; i < rest.size(); ++i) {
-    perLuminance[i] += other.perLuminance[i];
-    rest[i] += other.rest[i];
-  }
-}
-
 Image ChainEnsemble::Accumulated::image(const FilmSettings& film, double luminance) const {
   Image image(film.width, film.height);
   if (!(mutations > 0)) return image;
@@ -189,9 +177,7 @@ TwoEstimates ChainEnsemble::halves() const {
 }
 
 ImportanceMap ChainEnsemble::nextMap(double brightness, const Image* direct) const {
-  Accumulated past = lastButOne_;
-  past.add(last_);
-  const Image sampled = past.image(scene_.film, brightness);
+  const Image sampled = past_.image(scene_.film, brightness);
   Image picture = sampled;
   if (direct)
     for (std::size_t i = 0; i < picture.pixels.size(); ++i) picture.pixels[i] += direct->pixels[i];
@@ -201,8 +187,7 @@ ImportanceMap ChainEnsemble::nextMap(double brightness, const Image* direct) con
 void ChainEnsemble::nextEpoch(const Image* direct) {
   for (Group& group : groups_)
     for (const auto& chain : group.chains) chain->flush(group.kernels, group.films.states);
-  lastButOne_ = std::exchange(last_, {});
-  addEpoch(last_, 0, 1);
+  addEpoch(past_, 0, 1);
   ++epoch_;
 
   const ChainStatistics total = statistics();
@@ -252,8 +237,7 @@ std::vector<Path> ChainEnsemble::resampled(const ImportanceMap& next) const {
 RenderResult ChainEnsemble::result() const {
   const ChainStatistics total = statistics();
   const auto [mean, error] = luminance(total);
-  Accumulated all = lastButOne_;
-  all.add(last_);
+  Accumulated all = past_;
   addEpoch(all, 0, 1);
   long long neverMoved = 0;
   for (const Group& group : groups_)

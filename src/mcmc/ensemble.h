@@ -14,9 +14,7 @@ struct MetropolisMethod;
 // as long as all before it together, divides it by what the picture is known to look like by then
 // (ImportanceMap), unless the options switch that off, and mixes its kernels as they have done so far.
 // The chains' states go over to the new target by importance resampling. Every epoch's image by itself
-// tends to the right one; the result is the mean of the last three, each with its number of mutations.
-// What was before, a sixteenth of all at most, is where chains are still as the bootstrap has placed them:
-// one very bright sample of it, given a third of the chains, outweighs all other noise of a picture.
+// tends to the right one; the result is their mean, each with its number of mutations.
 class ChainEnsemble {
  public:
   // Chains start from the bootstrap's samples. Keeps references, but not to the request.
@@ -56,7 +54,7 @@ class ChainEnsemble {
     std::vector<std::unique_ptr<Chain>> chains;
     long long mutationsBefore = 0, largeStepsBefore = 0;  // the present epoch
   };
-  // Images of epochs. Were L the mean luminance of the image, known in the end: the sum of
+  // The images of past epochs. Were L the mean luminance of the image, known in the end: the sum of
   // L * perLuminance + rest, which is what an epoch's states, scaled so that together with the samples of
   // its large steps they have the luminance L, and those samples add up to.
   struct Accumulated {
@@ -64,7 +62,6 @@ class ChainEnsemble {
     double mutations = 0;
     void add(const Image& states, double statesLuminance, const Image& samples,
              double samplesLuminance, double mutations);
-    void add(const Accumulated& other);
     Image image(const FilmSettings& film, double luminance) const;
   };
 
@@ -78,7 +75,7 @@ class ChainEnsemble {
     double mean, error;
   };
   Luminance luminance(const ChainStatistics& total) const;
-  // By the picture of the past epochs that count, and what the chains leave out.
+  // By the picture of all past epochs, and what the chains leave out.
   ImportanceMap nextMap(double brightness, const Image* direct) const;
   // A start for each chain under the next map: their states, in proportion to what the new target is
   // of the present one.
@@ -94,7 +91,7 @@ class ChainEnsemble {
   TechniqueDistribution techniques_;
   double largeStepWeight_ = 1;  // against bootstrap samples, in the mean luminance
   std::vector<Group> groups_;
-  Accumulated last_, lastButOne_;  // past epochs that count
+  Accumulated past_;
   int epoch_ = 0;
 };
 
