@@ -62,7 +62,7 @@ ChainEnsemble::ChainEnsemble(const Scene& scene, const MetropolisMethod& method,
                        0,
                        0});
   }
-  // Starts are spread evenly over the bootstrap's samples: by chance, none has more chains than its share.
+  // Spread evenly over the bootstrap's samples: none gets more chains than its share by chance.
   const double offset =
       Random(seed_, kStartStream, static_cast<std::uint64_t>(chains_)).uniformDouble();
   parallelFor(threads_, groups, [&](int g) {
