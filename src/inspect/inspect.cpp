@@ -167,7 +167,7 @@ Inspection inspect(const Scene& scene, const MetropolisMethod& method, const Opt
   if (options.string("largeStep") != "bidirectional") {
     const Bootstrap bootstrap(scene, lengths.shortest, maxLength, kTechniqueSamples, settings.seed,
                               settings.threads);
-    const std::vector<double>& weights = bootstrap.techniqueLuminance();
+    const std::vector<double> weights = bootstrap.techniqueLuminance();
     techniques.setWeights(weights, std::vector<bool>(weights.size(), true));
   }
   const auto kernelsFrom = [&](int minLength) {

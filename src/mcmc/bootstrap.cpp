@@ -78,11 +78,11 @@ void Bootstrap::extendTo(long long samples) {
       *at = total += *at;
     }
   }
-  const auto traced = static_cast<double>(luminance_.count);
-  techniqueMean_ = techniqueSum_;
-  techniqueSquares_ = techniqueSquareSum_;
-  for (double& mean : techniqueMean_) mean /= traced;
-  for (double& square : techniqueSquares_) square /= traced;
+}
+
+std::vector<double> Bootstrap::perSample(std::vector<double> sums) const {
+  for (double& sum : sums) sum /= static_cast<double>(luminance_.count);
+  return sums;
 }
 
 void Bootstrap::drawStart(double u, Random& random, Path& start) const {

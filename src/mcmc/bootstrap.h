@@ -30,8 +30,8 @@ class Bootstrap {
   // Luminance of a whole sample: its mean is the film's mean luminance (of these path lengths).
   const Moments& luminance() const { return luminance_; }
   // Mean luminance by technique, and the mean square; in the order of TechniqueDistribution.
-  const std::vector<double>& techniqueLuminance() const { return techniqueMean_; }
-  const std::vector<double>& techniqueSquares() const { return techniqueSquares_; }
+  std::vector<double> techniqueLuminance() const { return perSample(techniqueSum_); }
+  std::vector<double> techniqueSquares() const { return perSample(techniqueSquareSum_); }
   long long notFinite() const { return notFinite_; }
 
   // A path drawn in proportion to its target, evaluated: the sample that u, in [0, 1), falls on where
@@ -40,6 +40,8 @@ class Bootstrap {
   void drawStart(double u, Random& random, Path& start) const;
 
  private:
+  std::vector<double> perSample(std::vector<double> sums) const;
+
   const Scene& scene_;
   int minLength_, maxLength_;
   std::uint64_t seed_;
@@ -47,7 +49,7 @@ class Bootstrap {
   const std::atomic<bool>* stop_;
   std::vector<double> cumulative_;  // of the samples' luminances
   Moments luminance_;
-  std::vector<double> techniqueSum_, techniqueSquareSum_, techniqueMean_, techniqueSquares_;
+  std::vector<double> techniqueSum_, techniqueSquareSum_;
   long long notFinite_ = 0;
 };
 

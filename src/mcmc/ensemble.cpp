@@ -20,10 +20,10 @@ constexpr double kMutationsPerCell = 256;
 // of the mean luminance is worth. The bootstrap knows both variances.
 double multiplexedWeight(const Bootstrap& bootstrap, const TechniqueDistribution& techniques) {
   double multiplexed = 0;
+  const std::vector<double> squares = bootstrap.techniqueSquares();
   for (int k = 0; k < techniques.size(); ++k)
     if (techniques.probability(k) > 0)
-      multiplexed +=
-          bootstrap.techniqueSquares()[static_cast<std::size_t>(k)] / techniques.probability(k);
+      multiplexed += squares[static_cast<std::size_t>(k)] / techniques.probability(k);
   const Moments& first = bootstrap.luminance();
   const double spread = std::max(multiplexed - squared(first.mean()), 1e-30);
   return std::min(1.0, first.variance() / spread);
@@ -43,7 +43,7 @@ ChainEnsemble::ChainEnsemble(const Scene& scene, const MetropolisMethod& method,
       useMap_(options.boolean("importanceMap")),
       target_(scene, maxLength, importance_),
       techniques_(minLength, maxLength) {
-  const std::vector<double>& weights = bootstrap.techniqueLuminance();
+  const std::vector<double> weights = bootstrap.techniqueLuminance();
   techniques_.setWeights(weights, std::vector<bool>(weights.size(), true));
   const bool bidirectional = options.string("largeStep") == "bidirectional";
   if (!bidirectional) largeStepWeight_ = multiplexedWeight(bootstrap, techniques_);

@@ -60,9 +60,9 @@ struct KernelMixture {
   // log of the probability with which `proposed` chooses the kind over that of `current`.
   double logRatio(std::size_t kind, const Path& current, const Path& proposed) const;
 
-  // Sets the shares of the small steps that have a cost, at each level, in proportion to the fourth power of
-  // acceptance over cost, each at least kLeast of what they have together. A function of what was
-  // counted alone. Chains may not be in the middle of a step.
+  // Sets the shares of the small steps that have a cost, at each level, in proportion to the fourth
+  // power of acceptance over cost, each at least kLeast of what they have together. A function of
+  // what was counted alone. Chains may not be in the middle of a step.
   void learn(const ChainStatistics& statistics);
   static constexpr double kLeast = 0.01;
 

@@ -39,12 +39,13 @@ TEST(Bootstrap, ExtendedIsAsIfMadeAtOnce) {
   EXPECT_EQ(parts.luminance().mean(), whole.luminance().mean());
   EXPECT_EQ(parts.luminance().variance(), whole.luminance().variance());
   EXPECT_EQ(parts.notFinite(), whole.notFinite());
-  for (std::size_t k = 0; k < whole.techniqueLuminance().size(); ++k) {
-    // Blocks are summed in other portions.
-    const double mean = whole.techniqueLuminance()[k], square = whole.techniqueSquares()[k];
-    EXPECT_NEAR(parts.techniqueLuminance()[k], mean, 1e-12 * mean);
-    EXPECT_NEAR(parts.techniqueSquares()[k], square, 1e-12 * square);
-  }
+  // Blocks are summed in other portions.
+  const auto near = [](const std::vector<double>& a, const std::vector<double>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], 1e-12 * b[k]) << k;
+  };
+  near(parts.techniqueLuminance(), whole.techniqueLuminance());
+  near(parts.techniqueSquares(), whole.techniqueSquares());
   EXPECT_EQ(starts(parts, 50), starts(whole, 50));
 }
 
