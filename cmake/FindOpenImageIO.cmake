@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # OpenImageIO by its header and libraries. Debian's own CMake file can't be used: it insists on the command line tools,
 # a package that brings Qt with it.
 

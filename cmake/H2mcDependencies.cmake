@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Every library the renderer stands on. All are packages of Debian 12; scripts/packages.txt lists them.
 
 find_package(Threads REQUIRED)

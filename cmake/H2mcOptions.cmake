@@ -1,15 +1,20 @@
+# SPDX-License-Identifier: MIT
 # What can be chosen, and the flags that follow from it. The flags are set for the whole tree: vector types travel
 # between the libraries, so every file has to be compiled for the same instruction set.
 
 option(H2MC_NATIVE "Compile for the processor of this machine (-march=native)" ON)
-set(H2MC_ARCH "" CACHE STRING "Instruction set when H2MC_NATIVE is off, such as x86-64-v3; empty for the compiler's own")
+set(H2MC_ARCH "" CACHE STRING
+    "Instruction set when H2MC_NATIVE is off, such as x86-64-v3; empty for the compiler's own")
 option(H2MC_WERROR "Treat warnings as errors" OFF)
-set(H2MC_DERIVATIVE_EDGES 4 CACHE STRING "Longest paths that have the plain derivative beside the local one, 4 to 8 edges")
+set(H2MC_DERIVATIVE_EDGES 4 CACHE STRING
+    "Longest paths that have the plain derivative beside the local one, 4 to 8 edges")
 set(H2MC_SANITIZE "" CACHE STRING "Sanitizers to build with, such as address,undefined")
 option(H2MC_BUILD_TESTS "Build the tests, where GoogleTest is found" ON)
-set(H2MC_TEST_FOLDERS "ad;unit;derivative;statistical;stress;image" CACHE STRING "Which folders of tests to build")
+set(H2MC_TEST_FOLDERS "ad;unit;derivative;statistical;stress;image;threads" CACHE STRING
+    "Which folders of tests to build")
 option(H2MC_BUILD_BENCHMARKS "Build the benchmarks, where Google Benchmark is found" ON)
-set(H2MC_DATA_DIR "${CMAKE_SOURCE_DIR}/../shared/data" CACHE PATH "Published scenes and reference images, for the tests")
+set(H2MC_DATA_DIR "${CMAKE_SOURCE_DIR}/../shared/data" CACHE PATH
+    "Published scenes and reference images, for the tests")
 
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Writes h2mc_version.h into the build tree. Run as a script (cmake -P) it rewrites the header, but only where its text
 # changes; included, it sets up the rule that does so after each commit, so that neither configuring again nor building
 # again compiles anything anew. Link h2mc_version to include the header.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Reads and writes small OpenEXR files with the standard library alone: scan lines of 32-bit floats,
 red, green and blue, uncompressed or ZIP, which is what h2mc writes too."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What the scenes' generators share: meshes made of grids of points, written as binary PLY files.
 
 Only the standard library, and the same numbers always give the same file. Points and vectors are

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# scripts/fresh-root.sh [--sudo] [FOLDER]: what somebody meets who has Debian 12 and nothing else. Makes a bare Debian 12
-# in FOLDER (build/fresh-root if none is given), clones the last commit into it and runs there the README's two commands: as
-# root, or with --sudo as a user who may use sudo. Before that it checks that a user who may not is told what to install.
-# Needs root and debootstrap; mirror and proxy are those of this machine's apt.
+# SPDX-License-Identifier: MIT
+# scripts/fresh-root.sh [--sudo] [FOLDER]: what somebody meets who has Debian 12 and nothing else. Makes a bare Debian
+# 12 in FOLDER (build/fresh-root if none is given), clones the last commit into it and runs there the README's two
+# commands: as root, or with --sudo as a user who may use sudo. Before that it checks that a user who may not is told
+# what to install. Needs root and debootstrap; mirror and proxy are those of this machine's apt.
 set -euo pipefail
 root=$(cd -P -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." >/dev/null && pwd)
 source "$root/scripts/lib.sh"
@@ -26,7 +27,8 @@ if [[ ! -e $folder/bare.done ]]; then
   say "making a bare Debian 12"
   proxy=$(apt-config dump --format '%v' Acquire::http::Proxy || true)
   rm -rf --one-file-system "$folder/bare"
-  env ${proxy:+http_proxy="$proxy"} debootstrap --variant=minbase bookworm "$folder/bare" "$mirror" >"$folder/debootstrap.log" 2>&1 ||
+  env ${proxy:+http_proxy="$proxy"} debootstrap --variant=minbase bookworm "$folder/bare" "$mirror" \
+    >"$folder/debootstrap.log" 2>&1 ||
     { cat "$folder/debootstrap.log" >&2; exit 1; }
   sed 's/^/deb /; s/$/ main/' <<<"$archives" >"$folder/bare/etc/apt/sources.list"
   apt-config dump | grep -E '^Acquire::(https?::Proxy|Check-)' >"$folder/bare/etc/apt/apt.conf.d/90host" || true
@@ -47,8 +49,8 @@ chroot "$new" chown -R visitor: /home/visitor
 inside() {
   unshare --mount --pid --fork -- bash -c '
     mount -t proc proc "$1/proc" && mount -t devpts -o newinstance,ptmxmode=666 devpts "$1/dev/pts" && shift &&
-    exec env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 HOME=/tmp "$@"' - "$new" \
-    chroot --userspec="$1" "$new" bash -c "cd '$home/h2mc' && $2" </dev/null
+    exec env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 HOME=/tmp "$@"' - \
+    "$new" chroot --userspec="$1" "$new" bash -c "cd '$home/h2mc' && $2" </dev/null
 }
 
 say "as a user without root and sudo"
@@ -62,7 +64,8 @@ if [[ $who == visitor ]]; then
 fi
 
 # The first lines of the README that call a script.
-mapfile -t commands < <(awk 'sub(/^ *(\$ )?(\.\/)?scripts\//, "scripts/") { print; found = 1; next } found { exit }' "$root/README.md")
+mapfile -t commands < <(
+  awk 'sub(/^ *(\$ )?(\.\/)?scripts\//, "scripts/") { print; found = 1; next } found { exit }' "$root/README.md")
 ((${#commands[@]})) || commands=("scripts/run.sh list")
 for command in "${commands[@]}"; do
   say "as $who: $command"

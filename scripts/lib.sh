@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # What run.sh and test.sh share. To be sourced; $root is the repository's folder. Everything here talks on stderr only.
 
 say() { printf 'h2mc: %s\n' "$*" >&2; }

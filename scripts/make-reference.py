@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """scripts/make-reference.py SCENE.xml -i INTEGRATOR [--runs K] [--seconds T | --samples N] [...]
 
 Renders the scene K times with different seeds and writes beside it reference.exr, the mean, and

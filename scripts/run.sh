@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # scripts/run.sh ARGS...: runs "h2mc ARGS...". Installs what is missing and builds first, where that is needed; works
 # from any folder, and relative paths mean the caller's folder.
 set -euo pipefail

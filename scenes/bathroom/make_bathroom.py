@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Writes the bathroom's parts beside this file: metres, the floor at y = 0."""
 
 import math

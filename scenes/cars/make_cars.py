@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Writes the parts of a car beside this file: metres, driving towards +x, standing on y = 0."""
 
 import math

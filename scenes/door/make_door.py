@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Writes the room, the door, the table and a teapot beside this file: metres, the floor at y = 0."""
 
 import os

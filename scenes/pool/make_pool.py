@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Writes the pool, its water and what is about it beside this file: metres, the water at y = 0."""
 
 import math

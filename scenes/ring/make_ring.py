@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Writes ring.ply beside this file: a finger ring of radius 1 standing on the plane y = 0.
 
 The inner wall is a plain cylinder, so that it throws the caustic of a circle; the upper edge is

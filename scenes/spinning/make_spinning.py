@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Writes the parts of the fan, the flywheel and the top beside this file. What spins does so about y."""
 
 import math

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Writes the weapons beside this file. Each stands on its guard, blade up along y, edges along x."""
 
 import math

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Writes the meshes and sky.hdr, a clear sky with a sun, beside this file."""
 
 import math

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Gradient and Hessian of a function that is composed of functions of few variables, where a dual of
 // all coordinates would be wasteful: a recurrence x_(k+1) = f_k(x_k, u_k) is differentiated step by
 // step, each by Dual2 with respect to its own x_k and u_k.
@@ -17,7 +18,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "ad/dual2.h"
+#include "ad/dual.h"
 
 namespace h2mc::ad {
 
@@ -66,6 +67,14 @@ class Composition {
   /// The same of the two (a + b) and z, plus `more`. `more` may be none(), and so may a or b, which leaves
   /// z alone, and z, which leaves a + b: none() if nothing is left.
   Variable logSumExpOfSum(Variable a, Variable b, Variable z, Variable more, T c);
+
+  /// Says that a step's output is what is left of terms that have cancelled within the step: differentiate() counts
+  /// `scale` times the square of v's derivatives among what has been added up. Leaves the derivatives alone.
+  void cancelled(Variable v, T scale) {
+    if (cancelled_.empty()) cancelled_.resize(at(stride_));
+    const Lane* const in = row(v);
+    for (int k = 0; k < stride_; ++k) cancelled_[at(k)] += scale * in[k] * in[k];
+  }
 
   /// Writes the gradient (coordinates() numbers) and the Hessian's lower triangle, row by row. Returns how
   /// much larger than the Hessian (or than 1, if it is smaller) the terms are that have been added up to it:
@@ -158,7 +167,8 @@ class Composition {
   std::vector<T> values_, adjoints_;
   std::vector<Span> spans_;
   std::vector<Lane> rows_, hessian_, scratch_;
-  std::vector<Lane> added_;  // absolute values of the terms on the Hessian's diagonal
+  std::vector<Lane> added_;      // absolute values of the terms on the Hessian's diagonal
+  std::vector<Lane> cancelled_;  // those of them that are known beforehand; empty if there are none
   std::vector<Node> nodes_;
   std::vector<Term> terms_;
   std::vector<Block> kept_;
@@ -173,6 +183,7 @@ void Composition<T>::begin(const T* values, int coordinates) {
   used_ = 0;
   nodes_.clear();
   terms_.clear();
+  cancelled_.clear();
   for (int i = 0; i < coordinates; ++i) {
     const Variable v = add(values[i], {i, i + 1});
     row(v)[i / kLanes][i % kLanes] = T(1);
@@ -289,7 +300,10 @@ template <class T>
 T Composition<T>::differentiate(Variable result, T* gradient, T* hessian) {
   std::memcpy(gradient, row(result), sizeof(T) * at(coordinates_));
   hessian_.assign(at(coordinates_ * stride_), Lane{});
-  added_.assign(at(stride_), Lane{});
+  if (cancelled_.empty())
+    added_.assign(at(stride_), Lane{});
+  else
+    added_ = cancelled_;
   std::fill_n(adjoints_.begin(), count_, T(0));
   adjoints_[at(result)] = T(1);
   for (std::size_t n = nodes_.size(); n-- > 0;) {

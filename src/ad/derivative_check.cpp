@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ad/derivative_check.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Whether exact derivatives are right: gradient and Hessian held against differences, entry by entry,
 // with a verdict that tells a wrong derivative from a difference that cannot judge.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "ad/difference_sweep.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Finite differences that know their own error, for functions whose coordinates vary on very
 // different scales: every coordinate gets steps of its own, from a sweep along its axis.
 //

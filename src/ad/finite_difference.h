@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Gradients and Hessians by central differences, to hold exact derivatives against.
 //
 // Each entry is a sweep of difference quotients with shrinking steps, extrapolated to step 0 by

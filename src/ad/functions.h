@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Elementary functions of plain numbers and of duals, by the same names.
 //
 // Values are those of the standard library, everywhere. Where a function has no finite derivative
@@ -15,7 +16,7 @@
 #include <limits>
 #include <numbers>
 
-#include "ad/dual2.h"
+#include "ad/dual.h"
 #include "ad/traits.h"
 
 namespace h2mc::ad {
@@ -130,95 +131,95 @@ H2MC_AD_INLINE bool isFinite(T x) {
 
 // -------------------------------------------------------------------------------------- duals
 
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> sqrt(const Dual2<T, N>& a) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> sqrt(const Dual<T, N, O>& a) {
   const T f = std::sqrt(a.v), f1 = T(0.5) / f;
   return chain(a, f, f1, T(-0.5) * f1 / a.v);
 }
 /// 1 / sqrt(a)
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> rsqrt(const Dual2<T, N>& a) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> rsqrt(const Dual<T, N, O>& a) {
   const T f = T(1) / std::sqrt(a.v), i = T(1) / a.v, f1 = T(-0.5) * f * i;
   return chain(a, f, f1, T(-1.5) * f1 * i);
 }
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> exp(const Dual2<T, N>& a) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> exp(const Dual<T, N, O>& a) {
   const T f = std::exp(a.v);
   return chainSmooth(a, f, f, f);
 }
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> expm1(const Dual2<T, N>& a) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> expm1(const Dual<T, N, O>& a) {
   const T f = std::expm1(a.v);
   return chainSmooth(a, f, f + T(1), f + T(1));
 }
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> log(const Dual2<T, N>& a) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> log(const Dual<T, N, O>& a) {
   // Below the normal numbers 1 / a overflows, but that of a multiple doesn't.
   if (a.v < std::numeric_limits<T>::min()) [[unlikely]] {
     constexpr T kMultiple = T(1) / std::numeric_limits<T>::epsilon();
-    const Dual2<T, N> b = a * kMultiple;
+    const Dual<T, N, O> b = a * kMultiple;
     return chainLog(b, std::log(b.v) - std::log(kMultiple), T(1) / b.v);
   }
   return chainLog(a, std::log(a.v), T(1) / a.v);
 }
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> log1p(const Dual2<T, N>& a) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> log1p(const Dual<T, N, O>& a) {
   return chainLog(a, std::log1p(a.v), T(1) / (T(1) + a.v));
 }
-template <class T, int N>
-H2MC_AD_INLINE void sincos(const Dual2<T, N>& a, Dual2<T, N>& s, Dual2<T, N>& c) {
-  const Dual2<T, N> x = a;  // s or c may be a
+template <class T, int N, int O>
+H2MC_AD_INLINE void sincos(const Dual<T, N, O>& a, Dual<T, N, O>& s, Dual<T, N, O>& c) {
+  const Dual<T, N, O> x = a;  // s or c may be a
   const T sine = std::sin(x.v), cosine = std::cos(x.v);
   s = chainSmooth(x, sine, cosine, -sine);
   c = chainSmooth(x, cosine, -sine, -cosine);
 }
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> sin(const Dual2<T, N>& a) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> sin(const Dual<T, N, O>& a) {
   const T f = std::sin(a.v);
   return chainSmooth(a, f, std::cos(a.v), -f);
 }
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> cos(const Dual2<T, N>& a) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> cos(const Dual<T, N, O>& a) {
   const T f = std::cos(a.v);
   return chainSmooth(a, f, -std::sin(a.v), -f);
 }
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> tan(const Dual2<T, N>& a) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> tan(const Dual<T, N, O>& a) {
   const T f = std::tan(a.v), f1 = T(1) + f * f;
   return chain(a, f, f1, T(2) * f * f1);
 }
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> asin(const Dual2<T, N>& a) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> asin(const Dual<T, N, O>& a) {
   const T d = (T(1) - a.v) * (T(1) + a.v), f1 = T(1) / std::sqrt(d);
   return chain(a, std::asin(a.v), f1, a.v * f1 / d);
 }
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> acos(const Dual2<T, N>& a) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> acos(const Dual<T, N, O>& a) {
   const T d = (T(1) - a.v) * (T(1) + a.v), f1 = T(-1) / std::sqrt(d);
   return chain(a, std::acos(a.v), f1, a.v * f1 / d);
 }
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> atan(const Dual2<T, N>& a) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> atan(const Dual<T, N, O>& a) {
   const T f1 = T(1) / (T(1) + a.v * a.v);
   return chain(a, std::atan(a.v), f1, T(-2) * a.v * f1 * f1);
 }
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> erf(const Dual2<T, N>& a) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> erf(const Dual<T, N, O>& a) {
   const T f1 = T(2) * std::numbers::inv_sqrtpi_v<T> * std::exp(-a.v * a.v);
   return chain(a, std::erf(a.v), f1, T(-2) * a.v * f1);
 }
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> square(const Dual2<T, N>& a) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> square(const Dual<T, N, O>& a) {
   return chainSmooth(a, a.v * a.v, T(2) * a.v, T(2));
 }
 /// |a|, with the derivatives of a at 0.
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> abs(const Dual2<T, N>& a) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> abs(const Dual<T, N, O>& a) {
   return a * (a.v < T(0) ? T(-1) : T(1));
 }
 /// The angle of (x, y) from the x axis, in [-pi, pi].
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> atan2(const Dual2<T, N>& y, const Dual2<T, N>& x) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> atan2(const Dual<T, N, O>& y, const Dual<T, N, O>& x) {
   // On the vector scaled to a largest coordinate of 1, so that no square under- or overflows.
   const T scale = T(1) / std::fmax(std::abs(x.v), std::abs(y.v));
   const T xs = x.v * scale, ys = y.v * scale, i = scale / (xs * xs + ys * ys);
@@ -226,14 +227,14 @@ H2MC_AD_INLINE Dual2<T, N> atan2(const Dual2<T, N>& y, const Dual2<T, N>& x) {
   return chain(y, x, std::atan2(y.v, x.v), fy, fx, -fxx, (ys * i) * (ys * i) - fy * fy, fxx);
 }
 /// sqrt(x^2 + y^2) without under- or overflow.
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> hypot(const Dual2<T, N>& x, const Dual2<T, N>& y) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> hypot(const Dual<T, N, O>& x, const Dual<T, N, O>& y) {
   const T f = std::hypot(x.v, y.v), i = T(1) / f, fx = x.v * i, fy = y.v * i;
   return chain(x, y, f, fx, fy, fy * fy * i, -fx * fy * i, fx * fx * i);
 }
 /// a^p. At a = 0 the derivatives are the limits from the right.
-template <class T, int N, Arithmetic S>
-H2MC_AD_INLINE Dual2<T, N> pow(const Dual2<T, N>& a, S exponent) {
+template <class T, int N, int O, Arithmetic S>
+H2MC_AD_INLINE Dual<T, N, O> pow(const Dual<T, N, O>& a, S exponent) {
   const T p = static_cast<T>(exponent), f = std::pow(a.v, p);
   if (a.v != T(0) && std::abs(f) >= std::numeric_limits<T>::min()) [[likely]] {
     const T i = T(1) / a.v, f1 = p * f * i;
@@ -243,14 +244,14 @@ H2MC_AD_INLINE Dual2<T, N> pow(const Dual2<T, N>& a, S exponent) {
   const T f2 = p == T(0) || p == T(1) ? T(0) : p * (p - T(1)) * std::pow(a.v, p - T(2));
   return chain(a, f, f1, f2);
 }
-template <Arithmetic S, class T, int N>
-H2MC_AD_INLINE Dual2<T, N> pow(S base, const Dual2<T, N>& p) {
+template <Arithmetic S, class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> pow(S base, const Dual<T, N, O>& p) {
   const T f = std::pow(static_cast<T>(base), p.v), l = std::log(static_cast<T>(base));
   const T f1 = f == T(0) ? T(0) : f * l;
   return chain(p, f, f1, f1 == T(0) ? T(0) : f1 * l);
 }
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> pow(const Dual2<T, N>& a, const Dual2<T, N>& p) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> pow(const Dual<T, N, O>& a, const Dual<T, N, O>& p) {
   const T f = std::pow(a.v, p.v), f1 = std::pow(a.v, p.v - T(1)), l = std::log(a.v);
   const T fa = p.v == T(0) ? T(0) : p.v * f1;
   const T faa = p.v == T(0) || p.v == T(1) ? T(0)

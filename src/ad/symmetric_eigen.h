@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Eigenvalues and eigenvectors of small symmetric matrices, in double.
 //
 // Householder reflections reduce A to a tridiagonal T = V A V^T, then shifted QR steps with implicit
@@ -12,7 +13,7 @@
 #include <cstring>
 #include <limits>
 
-#include "ad/dual2_layout.h"
+#include "ad/dual_layout.h"
 
 namespace h2mc::ad {
 

@@ -1,10 +1,11 @@
-// What templated code asks of its scalar, which may be float, double or a Dual2.
+// SPDX-License-Identifier: MIT
+// What templated code asks of its scalar, which may be float, double or a dual.
 #pragma once
 
 #include <limits>
 #include <type_traits>
 
-#include "ad/dual2.h"
+#include "ad/dual.h"
 
 namespace h2mc::ad {
 
@@ -13,13 +14,13 @@ template <class T>
 struct Traits {
   using Scalar = T;
   static constexpr bool isDual = false;
-  static constexpr int dimension = 0;
+  static constexpr int dimension = 0, order = 0;
 };
-template <class T, int N>
-struct Traits<Dual2<T, N>> {
+template <class T, int N, int O>
+struct Traits<Dual<T, N, O>> {
   using Scalar = T;
   static constexpr bool isDual = true;
-  static constexpr int dimension = N;
+  static constexpr int dimension = N, order = O;
 };
 }  // namespace detail
 
@@ -34,6 +35,10 @@ inline constexpr bool isDual = detail::Traits<std::remove_cvref_t<T>>::isDual;
 template <class T>
 inline constexpr int dimension = detail::Traits<std::remove_cvref_t<T>>::dimension;
 
+/// Order of the derivatives that a T carries; 0 for a plain number.
+template <class T>
+inline constexpr int order = detail::Traits<std::remove_cvref_t<T>>::order;
+
 template <class T>
 concept AnyDual = isDual<T>;
 
@@ -42,13 +47,13 @@ template <Arithmetic T>
 H2MC_AD_INLINE T value(T x) {
   return x;
 }
-template <class T, int N>
-H2MC_AD_INLINE T value(const Dual2<T, N>& x) {
+template <class T, int N, int O>
+H2MC_AD_INLINE T value(const Dual<T, N, O>& x) {
   return x.v;
 }
 
 }  // namespace h2mc::ad
 
 /// A dual has the limits of its value; GLM asks for them.
-template <class T, int N>
-struct std::numeric_limits<h2mc::ad::Dual2<T, N>> : std::numeric_limits<T> {};
+template <class T, int N, int O>
+struct std::numeric_limits<h2mc::ad::Dual<T, N, O>> : std::numeric_limits<T> {};

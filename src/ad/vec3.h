@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Vectors of plain numbers and of duals: GLM's type, with the fused operations of Dual2 behind
 // GLM's names. The overloads here are more specialised than GLM's, so both may be visible.
 //
@@ -9,7 +10,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "ad/dual2.h"
+#include "ad/dual.h"
 #include "ad/functions.h"
 #include "ad/traits.h"
 
@@ -21,16 +22,16 @@ template <class T>
 using Vec3 = glm::vec<3, T, glm::defaultp>;
 
 /// The vector of values.
-template <class T, int N>
-H2MC_AD_INLINE Vec3<T> value(const Vec3<Dual2<T, N>>& a) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Vec3<T> value(const Vec3<Dual<T, N, O>>& a) {
   return Vec3<T>(a.x.v, a.y.v, a.z.v);
 }
 template <std::floating_point T>
 H2MC_AD_INLINE Vec3<T> value(const Vec3<T>& a) {
   return a;
 }
-template <class T, int N>
-H2MC_AD_INLINE Vec2<T> value(const Vec2<Dual2<T, N>>& a) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Vec2<T> value(const Vec2<Dual<T, N, O>>& a) {
   return Vec2<T>(a.x.v, a.y.v);
 }
 template <std::floating_point T>
@@ -44,60 +45,60 @@ H2MC_AD_INLINE bool isFinite(const Vec3<T>& a) {
 
 // ---------------------------------------------------------------------------------- arithmetic
 
-#define H2MC_AD_COMPONENTWISE(op)                                                              \
-  template <class T, int N>                                                                    \
-  H2MC_AD_INLINE Vec3<Dual2<T, N>> operator op(const Vec3<Dual2<T, N>>& a,                     \
-                                               const Vec3<Dual2<T, N>>& b) {                   \
-    return Vec3<Dual2<T, N>>(a.x op b.x, a.y op b.y, a.z op b.z);                              \
-  }                                                                                            \
-  template <class T, int N>                                                                    \
-  H2MC_AD_INLINE Vec3<Dual2<T, N>> operator op(const Vec3<Dual2<T, N>>& a, const Vec3<T>& b) { \
-    return Vec3<Dual2<T, N>>(a.x op b.x, a.y op b.y, a.z op b.z);                              \
-  }                                                                                            \
-  template <class T, int N>                                                                    \
-  H2MC_AD_INLINE Vec3<Dual2<T, N>> operator op(const Vec3<T>& a, const Vec3<Dual2<T, N>>& b) { \
-    return Vec3<Dual2<T, N>>(a.x op b.x, a.y op b.y, a.z op b.z);                              \
+#define H2MC_AD_COMPONENTWISE(op)                                                                  \
+  template <class T, int N, int O>                                                                 \
+  H2MC_AD_INLINE Vec3<Dual<T, N, O>> operator op(const Vec3<Dual<T, N, O>>& a,                     \
+                                                 const Vec3<Dual<T, N, O>>& b) {                   \
+    return Vec3<Dual<T, N, O>>(a.x op b.x, a.y op b.y, a.z op b.z);                                \
+  }                                                                                                \
+  template <class T, int N, int O>                                                                 \
+  H2MC_AD_INLINE Vec3<Dual<T, N, O>> operator op(const Vec3<Dual<T, N, O>>& a, const Vec3<T>& b) { \
+    return Vec3<Dual<T, N, O>>(a.x op b.x, a.y op b.y, a.z op b.z);                                \
+  }                                                                                                \
+  template <class T, int N, int O>                                                                 \
+  H2MC_AD_INLINE Vec3<Dual<T, N, O>> operator op(const Vec3<T>& a, const Vec3<Dual<T, N, O>>& b) { \
+    return Vec3<Dual<T, N, O>>(a.x op b.x, a.y op b.y, a.z op b.z);                                \
   }
 H2MC_AD_COMPONENTWISE(+)
 H2MC_AD_COMPONENTWISE(-)
 H2MC_AD_COMPONENTWISE(*)
 #undef H2MC_AD_COMPONENTWISE
 
-template <class T, int N>
-H2MC_AD_INLINE Vec3<Dual2<T, N>> operator-(const Vec3<Dual2<T, N>>& a) {
-  return Vec3<Dual2<T, N>>(-a.x, -a.y, -a.z);
+template <class T, int N, int O>
+H2MC_AD_INLINE Vec3<Dual<T, N, O>> operator-(const Vec3<Dual<T, N, O>>& a) {
+  return Vec3<Dual<T, N, O>>(-a.x, -a.y, -a.z);
 }
-template <class T, int N>
-H2MC_AD_INLINE Vec3<Dual2<T, N>> operator*(const Vec3<Dual2<T, N>>& a, const Dual2<T, N>& s) {
-  return Vec3<Dual2<T, N>>(a.x * s, a.y * s, a.z * s);
+template <class T, int N, int O>
+H2MC_AD_INLINE Vec3<Dual<T, N, O>> operator*(const Vec3<Dual<T, N, O>>& a, const Dual<T, N, O>& s) {
+  return Vec3<Dual<T, N, O>>(a.x * s, a.y * s, a.z * s);
 }
-template <class T, int N>
-H2MC_AD_INLINE Vec3<Dual2<T, N>> operator*(const Dual2<T, N>& s, const Vec3<Dual2<T, N>>& a) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Vec3<Dual<T, N, O>> operator*(const Dual<T, N, O>& s, const Vec3<Dual<T, N, O>>& a) {
   return a * s;
 }
-template <class T, int N>
-H2MC_AD_INLINE Vec3<Dual2<T, N>> operator*(const Vec3<T>& a, const Dual2<T, N>& s) {
-  return Vec3<Dual2<T, N>>(s * a.x, s * a.y, s * a.z);
+template <class T, int N, int O>
+H2MC_AD_INLINE Vec3<Dual<T, N, O>> operator*(const Vec3<T>& a, const Dual<T, N, O>& s) {
+  return Vec3<Dual<T, N, O>>(s * a.x, s * a.y, s * a.z);
 }
-template <class T, int N>
-H2MC_AD_INLINE Vec3<Dual2<T, N>> operator*(const Dual2<T, N>& s, const Vec3<T>& a) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Vec3<Dual<T, N, O>> operator*(const Dual<T, N, O>& s, const Vec3<T>& a) {
   return a * s;
 }
-template <class T, int N, Arithmetic S>
-H2MC_AD_INLINE Vec3<Dual2<T, N>> operator*(const Vec3<Dual2<T, N>>& a, S s) {
-  return Vec3<Dual2<T, N>>(a.x * s, a.y * s, a.z * s);
+template <class T, int N, int O, Arithmetic S>
+H2MC_AD_INLINE Vec3<Dual<T, N, O>> operator*(const Vec3<Dual<T, N, O>>& a, S s) {
+  return Vec3<Dual<T, N, O>>(a.x * s, a.y * s, a.z * s);
 }
-template <class T, int N, Arithmetic S>
-H2MC_AD_INLINE Vec3<Dual2<T, N>> operator*(S s, const Vec3<Dual2<T, N>>& a) {
+template <class T, int N, int O, Arithmetic S>
+H2MC_AD_INLINE Vec3<Dual<T, N, O>> operator*(S s, const Vec3<Dual<T, N, O>>& a) {
   return a * s;
 }
-template <class T, int N>
-H2MC_AD_INLINE Vec3<Dual2<T, N>> operator/(const Vec3<Dual2<T, N>>& a, const Dual2<T, N>& s) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Vec3<Dual<T, N, O>> operator/(const Vec3<Dual<T, N, O>>& a, const Dual<T, N, O>& s) {
   return a * (T(1) / s);
 }
-template <class T, int N, Arithmetic S>
-H2MC_AD_INLINE Vec3<Dual2<T, N>> operator/(const Vec3<Dual2<T, N>>& a, S s) {
-  return Vec3<Dual2<T, N>>(a.x / s, a.y / s, a.z / s);
+template <class T, int N, int O, Arithmetic S>
+H2MC_AD_INLINE Vec3<Dual<T, N, O>> operator/(const Vec3<Dual<T, N, O>>& a, S s) {
+  return Vec3<Dual<T, N, O>>(a.x / s, a.y / s, a.z / s);
 }
 // ------------------------------------------------------------------------------------ products
 
@@ -105,12 +106,12 @@ template <Real T>
 H2MC_AD_INLINE T dot(const Vec3<T>& a, const Vec3<T>& b) {
   return dot3(a.x, b.x, a.y, b.y, a.z, b.z);
 }
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> dot(const Vec3<Dual2<T, N>>& a, const Vec3<T>& b) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> dot(const Vec3<Dual<T, N, O>>& a, const Vec3<T>& b) {
   return linear3(a.x, b.x, a.y, b.y, a.z, b.z);
 }
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> dot(const Vec3<T>& a, const Vec3<Dual2<T, N>>& b) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> dot(const Vec3<T>& a, const Vec3<Dual<T, N, O>>& b) {
   return dot(b, a);
 }
 template <Real T>
@@ -118,15 +119,15 @@ H2MC_AD_INLINE Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
   return Vec3<T>(differenceOfProducts(a.y, b.z, a.z, b.y), differenceOfProducts(a.z, b.x, a.x, b.z),
                  differenceOfProducts(a.x, b.y, a.y, b.x));
 }
-template <class T, int N>
-H2MC_AD_INLINE Vec3<Dual2<T, N>> cross(const Vec3<Dual2<T, N>>& a, const Vec3<T>& b) {
-  return Vec3<Dual2<T, N>>(linear2(a.y, b.z, a.z, -b.y), linear2(a.z, b.x, a.x, -b.z),
-                           linear2(a.x, b.y, a.y, -b.x));
+template <class T, int N, int O>
+H2MC_AD_INLINE Vec3<Dual<T, N, O>> cross(const Vec3<Dual<T, N, O>>& a, const Vec3<T>& b) {
+  return Vec3<Dual<T, N, O>>(linear2(a.y, b.z, a.z, -b.y), linear2(a.z, b.x, a.x, -b.z),
+                             linear2(a.x, b.y, a.y, -b.x));
 }
-template <class T, int N>
-H2MC_AD_INLINE Vec3<Dual2<T, N>> cross(const Vec3<T>& a, const Vec3<Dual2<T, N>>& b) {
-  return Vec3<Dual2<T, N>>(linear2(b.z, a.y, b.y, -a.z), linear2(b.x, a.z, b.z, -a.x),
-                           linear2(b.y, a.x, b.x, -a.y));
+template <class T, int N, int O>
+H2MC_AD_INLINE Vec3<Dual<T, N, O>> cross(const Vec3<T>& a, const Vec3<Dual<T, N, O>>& b) {
+  return Vec3<Dual<T, N, O>>(linear2(b.z, a.y, b.y, -a.z), linear2(b.x, a.z, b.z, -a.x),
+                             linear2(b.y, a.x, b.x, -a.y));
 }
 
 // ------------------------------------------------------------------------------------- lengths
@@ -155,12 +156,12 @@ template <Real T>
 H2MC_AD_INLINE T distance2(const Vec3<T>& a, const Vec3<T>& b) {
   return length2(a - b);
 }
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> distance2(const Vec3<Dual2<T, N>>& a, const Vec3<T>& b) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> distance2(const Vec3<Dual<T, N, O>>& a, const Vec3<T>& b) {
   return length2(a - b);
 }
-template <class T, int N>
-H2MC_AD_INLINE Dual2<T, N> distance2(const Vec3<T>& a, const Vec3<Dual2<T, N>>& b) {
+template <class T, int N, int O>
+H2MC_AD_INLINE Dual<T, N, O> distance2(const Vec3<T>& a, const Vec3<Dual<T, N, O>>& b) {
   return length2(a - b);
 }
 
@@ -170,12 +171,12 @@ H2MC_AD_INLINE Vec3<T> combine(T u, const Vec3<T>& a, T v, const Vec3<T>& b, T w
                                const Vec3<T>& c) {
   return u * a + v * b + w * c;
 }
-template <class T, int N>
-H2MC_AD_INLINE Vec3<Dual2<T, N>> combine(const Dual2<T, N>& u, const Vec3<T>& a,
-                                         const Dual2<T, N>& v, const Vec3<T>& b,
-                                         const Dual2<T, N>& w, const Vec3<T>& c) {
-  return Vec3<Dual2<T, N>>(linear3(u, a.x, v, b.x, w, c.x), linear3(u, a.y, v, b.y, w, c.y),
-                           linear3(u, a.z, v, b.z, w, c.z));
+template <class T, int N, int O>
+H2MC_AD_INLINE Vec3<Dual<T, N, O>> combine(const Dual<T, N, O>& u, const Vec3<T>& a,
+                                           const Dual<T, N, O>& v, const Vec3<T>& b,
+                                           const Dual<T, N, O>& w, const Vec3<T>& c) {
+  return Vec3<Dual<T, N, O>>(linear3(u, a.x, v, b.x, w, c.x), linear3(u, a.y, v, b.y, w, c.y),
+                             linear3(u, a.z, v, b.z, w, c.z));
 }
 
 }  // namespace h2mc::ad

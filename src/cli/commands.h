@@ -1,20 +1,27 @@
+// SPDX-License-Identifier: MIT
 // The program's commands. Each is one file; they share only what is declared here.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <stdexcept>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "render/core/user_error.h"
 #include "render/scene/option_set.h"
+#include "render/scene/problems.h"
 
 namespace CLI {
 class App;
 }
 
 namespace h2mc {
+
+struct Scene;
 
 enum ExitCode {
   kSuccess = 0,
@@ -25,9 +32,9 @@ enum ExitCode {
 };
 
 // The user's input is wrong; what() is the whole message.
-class InputError : public std::runtime_error {
+class InputError : public UserError {
  public:
-  using std::runtime_error::runtime_error;
+  using UserError::UserError;
 };
 
 // Each declares a subcommand. When the command line names it, `run` becomes what executes it and
@@ -51,8 +58,25 @@ void addDefines(CLI::App& command, std::vector<std::string>& definitions);
 // What `-D name=value` means to the commands that read a scene. Throws InputError.
 std::map<std::string, std::string> parseDefines(const std::vector<std::string>& definitions);
 
+// The option --permissive of the same commands.
+void addPermissive(CLI::App& command, bool& permissive);
+Strictness strictnessOf(bool permissive);
+
+// The options --seed and --threads.
+void addSeed(CLI::App& command, std::uint64_t& seed, const std::string& description);
+void addSeed(CLI::App& command, std::optional<std::uint64_t>& seed, const std::string& description);
+inline constexpr int kMostThreads = 1024;
+void addThreads(CLI::App& command, int& threads);
+
+// The scene's warnings, on stderr.
+void printWarnings(const Scene& scene);
+
 // Throws InputError if `file` can't be written; an empty name is none. Leaves what is there.
 void checkWritableFile(const std::string& file);
+
+// Throws InputError if two of the files, each with what it is, are one: what is read would be overwritten, or what was
+// written. An empty name is none.
+void checkDistinct(const std::vector<std::pair<const char*, std::string>>& files);
 
 // Makes the folder where it is not there, with those above it, and throws InputError if that fails or
 // if `file` can't be written into it. True if the folder is new.

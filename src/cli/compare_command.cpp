@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // h2mc compare
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -15,6 +16,8 @@
 #include "compare/external.h"
 #include "compare/page.h"
 #include "compare/reference.h"
+#include "compare/rendered_reference.h"
+#include "compare/runs.h"
 #include "h2mc_version.h"
 #include "render/image/atomic_file.h"
 #include "render/image/image_io.h"
@@ -116,6 +119,8 @@ int compare(const CompareOptions& options) {
   if (options.quiet) spdlog::set_level(spdlog::level::err);
   const ComparisonPlan plan = planOf(options);
   const ComparisonSetup setup = setUp(plan);
+  if (!options.quiet)
+    for (const auto& one : setup.scenes) printWarnings(one.scene);
 
   // All that can be wrong is found out before anything is rendered.
   std::vector<Reference> given;
@@ -240,10 +245,10 @@ void addCompareCommand(CLI::App& app, Run& run) {
       ->check(positive)
       ->excludes(width)
       ->excludes(height);
-  command->add_option("--seed", plan.seed, "Of the first repeat; the others follow")
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("--threads", plan.threads, "Default: one a core")->check(positive);
+  addSeed(*command, plan.seed, "Of the first repeat; the others follow");
+  addThreads(*command, plan.threads);
   addDefines(*command, plan.defines);
+  addPermissive(*command, plan.permissive);
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but the table and errors");
   command->footer(
       "Runs come one after the other, each on all threads. Interrupted by Ctrl-C, the same "

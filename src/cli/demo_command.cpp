@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // h2mc demo
 #include <fmt/format.h>
 
@@ -28,6 +29,7 @@ int imageCopy(const ImageCopyOptions& options) {
   const std::string output = options.output.empty()
                                  ? fs::path(options.picture).stem().string() + "-copy.html"
                                  : options.output;
+  checkDistinct({{"the picture", options.picture}, {"the page", output}});
   checkWritableFile(output);
   Image picture = readImage(options.picture);
   if (countNonFinite(picture) > 0)
@@ -82,10 +84,8 @@ void addDemoCommand(CLI::App& app, Run& run) {
   copy->add_option("--large", settings.largeShare, "Share of large mutations in mixtures")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  copy->add_option("--seed", settings.seed, "Same picture, options and seed: same page")
-      ->check(CLI::NonNegativeNumber);
-  copy->add_option("--threads", settings.threads, "Default: one a core")
-      ->check(CLI::PositiveNumber);
+  addSeed(*copy, settings.seed, "Same picture, options and seed: same page");
+  addThreads(*copy, settings.threads);
   copy->callback([options, &run] { run = [options] { return imageCopy(*options); }; });
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // h2mc diff
 #include <fmt/format.h>
 
@@ -55,6 +56,8 @@ int diff(const DiffOptions& options) {
     throw InputError("--tolerance needs one metric: give --metric NAME");
   if (!options.picture.empty()) checkWritable(options.picture);
 
+  for (const std::string& read : {options.image, options.reference})
+    checkDistinct({{"an image that is read", read}, {"the difference picture", options.picture}});
   Image image = readImage(options.image), reference = readImage(options.reference);
   // A larger picture of the same film is compared at the smaller one's resolution.
   matchSizes(image, options.image, reference);

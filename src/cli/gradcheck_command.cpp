@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // h2mc gradcheck
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -7,11 +8,11 @@
 #include <memory>
 #include <optional>
 
+#include "check/gradcheck/report.h"
 #include "cli/commands.h"
 #include "cli/progress_display.h"
 #include "cli/stop_signals.h"
 #include "h2mc_version.h"
-#include "mcmc/gradcheck/report.h"
 #include "render/image/atomic_file.h"
 #include "render/integrator/common_options.h"
 #include "render/integrator/parallel_rounds.h"
@@ -30,7 +31,7 @@ struct GradcheckOptions {
   std::optional<std::uint64_t> seed;
   std::optional<int> maxDepth;
   std::vector<std::string> defines;
-  bool quiet = false;
+  bool quiet = false, permissive = false;
 };
 
 // The scene's own longest path, as far as paths are usually looked at.
@@ -85,14 +86,17 @@ int run(const GradcheckOptions& options) {
   if (options.quiet) spdlog::set_level(spdlog::level::err);
   std::optional<SampledPath> replay;
   if (!options.replay.empty()) replay = parseReplay(options.replay);
+  checkDistinct({{"the scene", options.scene}, {"--json", options.json}, {"--html", options.html}});
   checkWritableFile(options.json);
   checkWritableFile(options.html);
 
   const std::vector<IntegratorPlugin> integrators = integratorPlugins();
   ReadOptions read;
   read.defines = parseDefines(options.defines);
+  read.strictness = strictnessOf(options.permissive);
   read.integrators = integrators;
   const Scene scene = readScene(options.scene, read);
+  if (!options.quiet) printWarnings(scene);
 
   GradcheckSettings settings = options.settings;
   settings.seed = options.seed.value_or(scene.seed.value_or(0));
@@ -163,8 +167,7 @@ void addGradcheckCommand(CLI::App& app, Run& run_) {
                                  "samples, half states of h2mc's chains")
                     ->check(positive)
                     ->capture_default_str();
-  command->add_option("--seed", options->seed, "Same seed: same paths. Default: the scene's, or 0")
-      ->check(CLI::NonNegativeNumber);
+  addSeed(*command, options->seed, "Same seed: same paths. Default: the scene's, or 0");
   command
       ->add_option("--tolerance", settings.tolerance,
                    "Relative error allowed to derivatives in double")
@@ -179,8 +182,9 @@ void addGradcheckCommand(CLI::App& app, Run& run_) {
       ->add_option("--max-depth", options->maxDepth,
                    "Longest path in edges. Default: the scene's, at most 8")
       ->check(CLI::Range(1, kMaxPathLength));
-  command->add_option("--threads", settings.threads, "Default: one a core")->check(positive);
+  addThreads(*command, settings.threads);
   addDefines(*command, options->defines);
+  addPermissive(*command, options->permissive);
   command->add_option("--json", options->json, "JSON file for everything that was found");
   command->add_option("--html", options->html, "Page with tables and plots");
   command

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // h2mc info
 #include <fmt/format.h>
 
@@ -17,6 +18,7 @@ namespace {
 struct InfoOptions {
   std::string scene;
   std::vector<std::string> defines;
+  bool permissive = false, strict = false;
 };
 
 const char* nameOf(Filter::Kind kind) {
@@ -141,8 +143,10 @@ int info(const InfoOptions& options) {
   const std::vector<IntegratorPlugin> integrators = integratorPlugins();
   ReadOptions read;
   read.defines = parseDefines(options.defines);
+  read.strictness = options.strict ? Strictness::kStrict : strictnessOf(options.permissive);
   read.integrators = integrators;
   const Scene scene = readScene(options.scene, read);
+  printWarnings(scene);
 
   line("scene", options.scene);
   printGeometry(scene);
@@ -162,6 +166,9 @@ void addInfoCommand(CLI::App& app, Run& run) {
   CLI::App* command = app.add_subcommand("info", "What a scene file holds, as it was read");
   command->add_option("SCENE", options->scene, "Scene file (Mitsuba XML)")->required();
   addDefines(*command, options->defines);
+  addPermissive(*command, options->permissive);
+  command->add_flag("--strict", options->strict, "Take every warning for an error")
+      ->excludes("--permissive");
   command->footer("What is not used, or left out because nothing needs it, is in the notes.");
   command->callback([options, &run] { run = [options] { return info(*options); }; });
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // h2mc inspect
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -12,8 +13,9 @@
 #include "h2mc_version.h"
 #include "inspect/picture.h"
 #include "inspect/report.h"
-#include "mcmc/integrator_choice.h"
-#include "mcmc/integrators.h"
+#include "mcmc/methods/methods.h"
+#include "mcmc/methods/presets.h"
+#include "mcmc/render/integrator_choice.h"
 #include "render/image/atomic_file.h"
 #include "render/image/image_io.h"
 #include "render/path/path_text.h"
@@ -30,7 +32,7 @@ struct InspectOptions {
   std::vector<std::string> defines;
   std::optional<std::uint64_t> seed;
   InspectSettings settings;
-  bool quiet = false;
+  bool quiet = false, permissive = false;
 };
 
 // "X,Y", whole numbers.
@@ -49,10 +51,11 @@ std::string methodWish(const std::string& wish) {
 
 const MetropolisMethod& methodOf(const std::string& wish) {
   const std::string name = wish.substr(0, wish.find(':'));
+  if (const Preset* preset = presetNamed(name)) return methodNamed(preset->method);
   Names names;
   for (const MetropolisMethod& method : metropolisMethods()) {
-    if (method.plugin.name == name) return method;
-    names.emplace_back(method.plugin.name);
+    if (method.name == name) return method;
+    names.emplace_back(method.name);
   }
   throw InputError("--integrator: " + name + " makes no mutations that could be looked at; " +
                    suggestion(name, names));
@@ -102,8 +105,10 @@ int run(const InspectOptions& options) {
   const std::vector<IntegratorPlugin> integrators = integratorPlugins();
   ReadOptions read;
   read.defines = parseDefines(options.defines);
+  read.strictness = strictnessOf(options.permissive);
   read.integrators = integrators;
   const Scene scene = readScene(options.scene, read);
+  if (!options.quiet) printWarnings(scene);
   const OptionSet methodOptions = chooseIntegrator(wish, scene).options;
   if (settings.choice != PathChoice::kGiven &&
       !(settings.pixelX >= 0 && settings.pixelX < scene.film.width && settings.pixelY >= 0 &&
@@ -116,6 +121,7 @@ int run(const InspectOptions& options) {
   const fs::path folder = options.output.empty()
                               ? fs::path(options.scene).stem().string() + "-inspect"
                               : options.output;
+  checkDistinct({{"the scene", options.scene}, {"--json", options.json}});
   checkWritableFile(options.json);
   const bool made = prepareFolder(folder, "index.html");
   // A folder that nothing was written to shall not stay; anybody's files keep it.
@@ -192,11 +198,10 @@ void addInspectCommand(CLI::App& app, Run& run_) {
   command->add_option("-i,--integrator", options->integrator,
                       "h2mc or mmlt, with options as in h2mc:sigma=0.02,minDepth=4. Default: h2mc "
                       "with the scene's options");
-  command->add_option("--seed", options->seed, "Same seed: same path. Default: the scene's, or 0")
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("--threads", settings.threads, "Default: one a core")
-      ->check(CLI::PositiveNumber);
+  addSeed(*command, options->seed, "Same seed: same path. Default: the scene's, or 0");
+  addThreads(*command, settings.threads);
   addDefines(*command, options->defines);
+  addPermissive(*command, options->permissive);
   command->add_option("--json", options->json,
                       "JSON file: path, eigenvectors, proposals, and the chosen pair's slices");
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but failures");

@@ -1,12 +1,16 @@
+// SPDX-License-Identifier: MIT
 // h2mc list
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "cli/commands.h"
-#include "mcmc/integrators.h"
+#include "mcmc/methods/presets.h"
+#include "mcmc/mutations/mutations.h"
+#include "mcmc/render/integrators.h"
 #include "render/bsdf/bsdf.h"
 #include "render/light/light.h"
 #include "render/scene/shape_plugins.h"
@@ -18,7 +22,8 @@ namespace {
 
 // A row of any of the plugin tables.
 struct Entry {
-  std::string_view name, otherName, description;
+  std::string_view name, otherName;
+  std::string description;
   std::span<const Parameter> parameters;
 };
 
@@ -27,19 +32,35 @@ struct Section {
   std::vector<Entry> entries;
 };
 
+// The words of a preset, and what it sets.
+std::string optionsOf(const Preset& preset) {
+  std::string text = fmt::format("{}. Stands for {}", preset.description, preset.method);
+  for (std::size_t i = 0; i < preset.options.size(); ++i)
+    text +=
+        fmt::format("{}{}={}", i ? "," : ":", preset.options[i].first, preset.options[i].second);
+  return text;
+}
+
 std::vector<Section> sections() {
-  std::vector<Section> all{
-      {"bsdfs", {}}, {"lights", {}}, {"shapes", {}}, {"textures", {}}, {"integrators", {}}};
+  std::vector<Section> all{{"bsdfs", {}},       {"lights", {}},    {"shapes", {}}, {"textures", {}},
+                           {"integrators", {}}, {"mutations", {}}, {"presets", {}}};
   for (const BsdfPlugin& p : bsdfPlugins())
-    all[0].entries.push_back({p.name, "", p.description, p.parameters});
+    all[0].entries.push_back({p.name, "", std::string(p.description), p.parameters});
   for (const auto& p : lightPlugins())
-    all[1].entries.push_back({p.name, p.otherName, p.description, p.parameters});
+    all[1].entries.push_back({p.name, p.otherName, std::string(p.description), p.parameters});
   for (const auto& p : shapePlugins())
-    all[2].entries.push_back({p.name, p.otherName, p.description, p.parameters});
+    all[2].entries.push_back({p.name, p.otherName, std::string(p.description), p.parameters});
   for (const auto& p : texturePlugins())
-    all[3].entries.push_back({p.name, p.otherName, p.description, p.parameters});
+    all[3].entries.push_back({p.name, p.otherName, std::string(p.description), p.parameters});
   for (const IntegratorFactory& f : allIntegrators())
-    all[4].entries.push_back({f.plugin.name, "", f.plugin.description, f.plugin.parameters});
+    all[4].entries.push_back(
+        {f.plugin.name, "", std::string(f.plugin.description), f.plugin.parameters});
+  for (const MutationPlugin& p : mutations())
+    all[5].entries.push_back({p.name, "", std::string(p.description), p.parameters});
+  for (const LargeStepPlugin& p : largeSteps())
+    all[5].entries.push_back(
+        {p.name, "", fmt::format("large step: {}", p.description), p.parameters});
+  for (const Preset& p : presets()) all[6].entries.push_back({p.name, "", optionsOf(p), {}});
   return all;
 }
 
@@ -106,7 +127,7 @@ void printWrapped(const std::string& head, const std::string& text) {
 void print(const Entry& entry) {
   fmt::print("  {}{}\n", entry.name,
              entry.otherName.empty() ? "" : fmt::format(" (also {})", entry.otherName));
-  if (!entry.description.empty()) printWrapped("      ", std::string(entry.description));
+  if (!entry.description.empty()) printWrapped("      ", entry.description);
   std::size_t name = 0, type = 0, fallback = 1;
   Names ignored;
   for (const Parameter& p : entry.parameters) {
@@ -126,9 +147,48 @@ void print(const Entry& entry) {
   if (!ignored.empty()) printWrapped("    read and not used: ", joined(ignored));
 }
 
-int list(const std::string& what) {
+// What Markdown shows as this text, in a cell of a table too.
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '|' || c == '<' || c == '*' || c == '_') result += '\\';
+    result += c;
+  }
+  return result;
+}
+
+// As code in a cell, which a bar would end.
+std::string codeCell(std::string_view text) {
+  std::string result = "`";
+  for (const char c : text) result += c == '|' ? std::string("\\|") : std::string(1, c);
+  return text.empty() ? "" : result + "`";
+}
+
+void printMarkdown(const Entry& entry) {
+  fmt::print("\n### {}\n\n", entry.name);
+  std::string text = escaped(entry.description);
+  if (!entry.otherName.empty())
+    text += fmt::format("{}Also `{}`.", text.empty() ? "" : " ", entry.otherName);
+  if (!text.empty()) fmt::print("{}\n", text);
+  Names ignored;
+  bool begun = false;
+  for (const Parameter& p : entry.parameters) {
+    if (p.ignored) {
+      ignored.emplace_back(fmt::format("`{}`", p.name));
+      continue;
+    }
+    if (!begun) fmt::print("\n| parameter | type | default | meaning |\n|---|---|---|---|\n");
+    begun = true;
+    fmt::print("| `{}` | {} | {} | {} |\n", p.name, typeName(p), codeCell(p.fallback),
+               escaped(describe(p)));
+  }
+  if (!ignored.empty()) fmt::print("\nRead and not used: {}.\n", joined(ignored));
+}
+
+int list(const std::string& what, bool markdown) {
   Names names;
   bool found = what.empty();
+  const char* gap = "";
   for (const Section& section : sections()) {
     names.emplace_back(section.name);
     const bool whole = what.empty() || what == section.name;
@@ -138,8 +198,11 @@ int list(const std::string& what) {
         chosen.push_back(entry);
     if (chosen.empty() && !whole) continue;
     found = true;
-    fmt::print("{}\n", section.name);
-    for (const Entry& entry : chosen) print(entry);
+    if (markdown)
+      fmt::print("{}## {}\n", std::exchange(gap, "\n"), section.name);
+    else
+      fmt::print("{}\n", section.name);
+    for (const Entry& entry : chosen) markdown ? printMarkdown(entry) : print(entry);
   }
   if (!found)
     throw InputError("nothing is called \"" + what + "\"; give one of " + joined(names) +
@@ -151,13 +214,17 @@ int list(const std::string& what) {
 
 void addListCommand(CLI::App& app, Run& run) {
   auto what = std::make_shared<std::string>();
+  auto markdown = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand(
-      "list", "BSDFs, lights, shapes, textures and integrators, with their parameters");
+      "list",
+      "BSDFs, lights, shapes, textures, integrators, mutations and presets, with their parameters");
   command->add_option("WHAT", *what,
-                      "bsdfs, lights, shapes, textures, integrators, or the name of one of their "
-                      "entries; default: everything");
+                      "bsdfs, lights, shapes, textures, integrators, mutations, presets, or the "
+                      "name of one of their entries; default: everything");
+  command->add_flag("--markdown", *markdown, "as Markdown tables, those of docs/scene-format.md");
   command->footer("Columns: name, type, default (- where there is none), meaning.");
-  command->callback([what, &run] { run = [what] { return list(*what); }; });
+  command->callback(
+      [what, markdown, &run] { run = [what, markdown] { return list(*what, *markdown); }; });
 }
 
 }  // namespace h2mc

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // h2mc: Metropolis light transport steered by derivatives. The commands are in the files beside
 // this one.
 #include <spdlog/sinks/stdout_color_sinks.h>
@@ -13,10 +14,11 @@
 #include "compare/comparison.h"
 #include "h2mc_version.h"
 #include "inspect/inspect.h"
-#include "mcmc/integrators.h"
+#include "mcmc/render/integrators.h"
 #include "render/image/atomic_file.h"
 #include "render/image/image_io.h"
 #include "render/scene/properties.h"
+#include "render/scene/scene.h"
 #include "render/scene/suggestion.h"
 
 namespace h2mc {
@@ -27,21 +29,8 @@ std::vector<IntegratorPlugin> integratorPlugins() {
   return plugins;
 }
 
-void addDefines(CLI::App& command, std::vector<std::string>& definitions) {
-  command
-      .add_option("-D", definitions, "name=value: what the scene's $name stands for; repeatable")
-      ->allow_extra_args(false);
-}
-
-std::map<std::string, std::string> parseDefines(const std::vector<std::string>& definitions) {
-  std::map<std::string, std::string> defines;
-  for (const std::string& definition : definitions) {
-    const std::size_t equals = definition.find('=');
-    if (equals == 0 || equals == std::string::npos)
-      throw InputError("-D " + definition + ": expected name=value");
-    defines[definition.substr(0, equals)] = definition.substr(equals + 1);
-  }
-  return defines;
+void printWarnings(const Scene& scene) {
+  for (const std::string& warning : scene.warnings) std::fprintf(stderr, "%s\n", warning.c_str());
 }
 
 void checkWritableFile(const std::string& file) {
@@ -50,6 +39,20 @@ void checkWritableFile(const std::string& file) {
     AtomicFile probe(file);
   } catch (const std::exception& e) {
     throw InputError(e.what());
+  }
+}
+
+void checkDistinct(const std::vector<std::pair<const char*, std::string>>& files) {
+  std::map<std::filesystem::path, const char*> known;
+  for (const auto& [what, file] : files) {
+    if (file.empty()) continue;
+    std::error_code error;  // whoever opens the file says what is wrong with it
+    const std::filesystem::path path = std::filesystem::weakly_canonical(file, error);
+    if (error) continue;
+    const auto [other, isNew] = known.emplace(path, what);
+    if (!isNew)
+      throw InputError(std::string(other->second) + " and " + what + " are one file, \"" + file +
+                       "\"");
   }
 }
 
@@ -73,6 +76,21 @@ int report(int exitCode, const char* message) {
 std::string commandName(const CLI::App& app) {
   const auto parsed = app.get_subcommands();
   return parsed.empty() ? "h2mc" : "h2mc " + parsed.front()->get_name();
+}
+
+// What went wrong in parsing; for an option that the command does not have, those that it has.
+std::string messageOf(const CLI::ParseError& error, const CLI::App& app) {
+  const auto parsed = app.get_subcommands();
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) && !parsed.empty()) {
+    Names known;
+    for (const CLI::Option* option : parsed.front()->get_options())
+      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    for (const std::string& given : parsed.front()->remaining(true))
+      if (given.starts_with("--"))
+        return "unknown option \"" + given + "\"; " +
+               suggestion(given.substr(0, given.find('=')), known);
+  }
+  return error.what();
 }
 
 int run(int argc, char** argv) {
@@ -108,7 +126,8 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    std::fprintf(stderr, "h2mc: %s\nTry `%s --help`.\n", e.what(), commandName(app).c_str());
+    std::fprintf(stderr, "h2mc: %s\nTry `%s --help`.\n", messageOf(e, app).c_str(),
+                 commandName(app).c_str());
     return kBadInput;
   }
 
@@ -116,17 +135,7 @@ int run(int argc, char** argv) {
 
   try {
     return command();
-  } catch (const InputError& e) {
-    return report(kBadInput, e.what());
-  } catch (const SceneError& e) {
-    return report(kBadInput, e.what());
-  } catch (const OptionError& e) {
-    return report(kBadInput, e.what());
-  } catch (const ComparisonError& e) {
-    return report(kBadInput, e.what());
-  } catch (const InspectError& e) {
-    return report(kBadInput, e.what());
-  } catch (const ImageError& e) {
+  } catch (const UserError& e) {
     return report(kBadInput, e.what());
   }
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How far the render has come, on stderr.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // h2mc render
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -15,7 +16,7 @@
 #include "cli/statistics_table.h"
 #include "cli/stop_signals.h"
 #include "h2mc_version.h"
-#include "mcmc/integrator_choice.h"
+#include "mcmc/render/integrator_choice.h"
 #include "render/image/atomic_file.h"
 #include "render/image/image_io.h"
 #include "render/scene/scene.h"
@@ -34,6 +35,7 @@ struct RenderOptions {
   int width = 0, height = 0;
   double scale = 0;
   std::vector<std::string> defines;
+  bool permissive = false;
   bool quiet = false, png = false;
 };
 
@@ -70,16 +72,21 @@ Outputs outputsOf(const RenderOptions& options) {
   return outputs;
 }
 
-void checkOutputs(const Outputs& outputs, const std::string& statistics) {
+void checkOutputs(const Outputs& outputs, const RenderOptions& options) {
+  checkDistinct({{"the scene", options.scene},
+                 {"the image", outputs.image},
+                 {"the PNG", outputs.png},
+                 {"--stats", options.statistics}});
   checkWritable(outputs.image);
   if (!outputs.png.empty()) checkWritable(outputs.png);
-  checkWritableFile(statistics);
+  checkWritableFile(options.statistics);
 }
 
 Scene readSceneFor(const RenderOptions& options) {
   const std::vector<IntegratorPlugin> integrators = integratorPlugins();
   ReadOptions read;
   read.defines = parseDefines(options.defines);
+  read.strictness = strictnessOf(options.permissive);
   read.integrators = integrators;
   read.width = options.width;
   read.height = options.height;
@@ -175,11 +182,13 @@ int render(const RenderOptions& options) {
   checkBudget(options.budget);
   const Outputs outputs = outputsOf(options);
   checkIntegratorWish(options.integrator);
-  checkOutputs(outputs, options.statistics);
+  checkOutputs(outputs, options);
 
   const Scene scene = readSceneFor(options);
-  if (!options.quiet)
+  if (!options.quiet) {
+    printWarnings(scene);
     for (const std::string& note : scene.notes) fmt::print(stderr, "{}\n", note);
+  }
   const IntegratorChoice choice = chooseIntegrator(options.integrator, scene);
   Plan plan{options, outputs, choice.options};
   plan.seed = options.seed.value_or(scene.seed.value_or(0));
@@ -252,12 +261,11 @@ void addRenderCommand(CLI::App& app, Run& run) {
       ->check(positive)
       ->excludes(width)
       ->excludes(height);
-  command
-      ->add_option("--seed", options->seed,
-                   "Same scene, options and seed: same image. Default: the scene's, or 0")
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("--threads", options->threads, "Default: one a core")->check(positive);
+  addSeed(*command, options->seed,
+          "Same scene, options and seed: same image. Default: the scene's, or 0");
+  addThreads(*command, options->threads);
   addDefines(*command, options->defines);
+  addPermissive(*command, options->permissive);
   command->add_option("--stats", options->statistics, "JSON file to write the statistics to");
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command->footer(

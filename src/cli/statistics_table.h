@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Statistics for people to read.
 #pragma once
 

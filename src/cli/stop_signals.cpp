@@ -1,7 +1,10 @@
+// SPDX-License-Identifier: MIT
 #include "cli/stop_signals.h"
 
 #include <signal.h>
 #include <unistd.h>
+
+#include <array>
 
 #include "cli/commands.h"
 #include "render/image/atomic_file.h"
@@ -12,7 +15,9 @@ namespace {
 std::atomic<bool> stopRequested{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "it is set in a signal handler");
 
-struct sigaction previousInterrupt, previousTerminate;
+// SIGHUP: the terminal, or the connection to it, is gone.
+constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
+std::array<struct sigaction, kSignals.size()> previous;
 
 void onSignal(int) {
   if (stopRequested.exchange(true)) {
@@ -29,13 +34,16 @@ StopSignals::StopSignals() {
   action.sa_handler = onSignal;
   action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, &previousInterrupt);
-  sigaction(SIGTERM, &action, &previousTerminate);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    sigaction(kSignals[i], nullptr, &previous[i]);
+    // What nohup has had ignored stays so; that a shell ignores SIGINT for jobs in the background does not.
+    if (kSignals[i] != SIGHUP || previous[i].sa_handler != SIG_IGN)
+      sigaction(kSignals[i], &action, nullptr);
+  }
 }
 
 StopSignals::~StopSignals() {
-  sigaction(SIGINT, &previousInterrupt, nullptr);
-  sigaction(SIGTERM, &previousTerminate, nullptr);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &previous[i], nullptr);
 }
 
 const std::atomic<bool>& StopSignals::requested() { return stopRequested; }

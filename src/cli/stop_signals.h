@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Ctrl-C.
 #pragma once
 
@@ -5,7 +6,7 @@
 
 namespace h2mc {
 
-// While one exists, the first SIGINT or SIGTERM asks the render to stop, and a second one ends the
+// While one exists, the first SIGINT, SIGTERM or SIGHUP asks the render to stop, and a second one ends the
 // program at once with exit code 130, leaving no half-written file. Only one at a time.
 class StopSignals {
  public:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // h2mc stress
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -6,12 +7,12 @@
 #include <memory>
 #include <optional>
 
+#include "check/gradcheck/report.h"
+#include "check/stress/report.h"
 #include "cli/commands.h"
 #include "cli/progress_display.h"
 #include "cli/stop_signals.h"
 #include "h2mc_version.h"
-#include "mcmc/gradcheck/report.h"
-#include "mcmc/stress/report.h"
 #include "render/image/atomic_file.h"
 #include "render/integrator/parallel_rounds.h"
 #include "render/path/path_text.h"
@@ -28,7 +29,7 @@ struct StressOptions {
   std::optional<std::uint64_t> seed;
   int maxDepth = kDefaultMaxDepth, width = kDefaultWidth;
   std::vector<std::string> only, defines;
-  bool quiet = false;
+  bool quiet = false, permissive = false;
 };
 
 // A path of the one variation that was asked for, in full.
@@ -58,10 +59,12 @@ int run(const StressOptions& options) {
   const std::vector<const Variation*> variations = chosenVariations(options);
   if (!options.replay.empty() && variations.size() != 1)
     throw InputError("--replay: which variation's path is it? Name one with --only");
+  checkDistinct({{"the scene", options.scene}, {"--json", options.json}});
   checkWritableFile(options.json);
   const std::vector<IntegratorPlugin> integrators = integratorPlugins();
   ReadOptions read;
   read.defines = parseDefines(options.defines);
+  read.strictness = strictnessOf(options.permissive);
   read.integrators = integrators;
   read.width = options.width;
   if (!options.replay.empty()) return replayPath(options, read, *variations[0]);
@@ -70,6 +73,7 @@ int run(const StressOptions& options) {
   {
     // What is wrong with the scene itself is the user's business.
     const Scene scene = readScene(options.scene, read);
+    if (!options.quiet) printWarnings(scene);
     settings.seed = options.seed.value_or(scene.seed.value_or(0));
   }
   settings.maxLength = options.maxDepth;
@@ -162,18 +166,17 @@ void addStressCommand(CLI::App& app, Run& run_) {
   command->add_option("--width", options->width, "Width of these pictures in pixels")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
-  command
-      ->add_option("--seed", options->seed, "Same seed: same findings. Default: the scene's, or 0")
-      ->check(CLI::NonNegativeNumber);
+  addSeed(*command, options->seed, "Same seed: same findings. Default: the scene's, or 0");
   command->add_option("--max-depth", options->maxDepth, "Longest path in edges")
       ->check(CLI::Range(1, kMaxPathLength))
       ->capture_default_str();
-  command->add_option("--threads", settings.threads, "Default: one a core")->check(positive);
+  addThreads(*command, settings.threads);
   command
       ->add_option("--only", options->only,
                    "NAME,...: these variations alone; \"alpha\" stands for all alpha=..")
       ->delimiter(',');
   addDefines(*command, options->defines);
+  addPermissive(*command, options->permissive);
   command->add_option("--json", options->json, "JSON file for everything that was found");
   command
       ->add_option("--replay", options->replay,

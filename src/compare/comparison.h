@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a comparison is made of: the plan, and what its runs leave behind.
 #pragma once
 
@@ -5,16 +6,17 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "render/core/user_error.h"
 
 namespace h2mc {
 
 // The user's input is wrong; what() is the whole message.
-class ComparisonError : public std::runtime_error {
+class ComparisonError : public UserError {
  public:
-  using std::runtime_error::runtime_error;
+  using UserError::UserError;
 };
 
 struct ComparedScene {
@@ -41,6 +43,7 @@ struct ComparisonPlan {
   std::vector<std::string> defines;
   int width = 0, height = 0;
   double scale = 0;
+  bool permissive = false;  // as ReadOptions::strictness
 
   std::string reference;            // an image, with {scene} for the scene's name, or "auto"
   std::string referenceIntegrator;  // empty: what the scene's README says, else bdpt

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Putting data into a page that needs no other file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compare/external.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Images of other programs in a comparison.
 #pragma once
 

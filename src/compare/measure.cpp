@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compare/measure.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a comparison tells on its way, and how it is stopped.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The comparison's page: one HTML file that needs no network.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The sources of the page, from page/, as CMake embeds them.
 #pragma once
 

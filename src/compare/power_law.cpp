@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compare/power_law.h"
 
 #include <cmath>

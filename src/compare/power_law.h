@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // error = c t^-p
 #pragma once
 

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: MIT
 // What the images of a comparison are compared with.
 #pragma once
 
 #include <optional>
 
-#include "compare/runs.h"
+#include "compare/comparison.h"
 #include "render/image/image.h"
 
 namespace h2mc {
@@ -23,17 +24,5 @@ std::optional<glm::ivec2> sizeForReference(const ComparisonPlan& plan, const Com
 // Throws ImageError, ComparisonError.
 Reference givenReference(const ComparisonPlan& plan, const ComparedScene& scene, int width,
                          int height);
-
-// Renders two independent halves, longer and longer, until the error of their mean, which their
-// difference tells, is a tenth of the smallest error of the runs' last images, or the plan's time for
-// it is over. Goes on with what an earlier call left in the runs' folder. Only `runs.methods` of
-// the runs is read. Returns false when it was stopped.
-bool renderReference(const ComparisonPlan& plan, const ComparisonSetup::OneScene& setup,
-                     const SceneRuns& runs, const ComparisonObserver& observer,
-                     Reference& reference);
-
-// The integrator of automatic references: the plan's; else what stands in backquotes after the words
-// "Reference integrator:" in the README beside the scene; else bdpt.
-std::string referenceIntegrator(const ComparisonPlan& plan, const ComparedScene& scene);
 
 }  // namespace h2mc

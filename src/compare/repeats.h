@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a few independent repeats say: intervals and tests by Student's t distribution.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A comparison's results as files for people and programs.
 #pragma once
 

@@ -1,39 +1,20 @@
+// SPDX-License-Identifier: MIT
 #include "compare/runs.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <fstream>
-#include <sstream>
 
-#include "compare/reference.h"
-#include "mcmc/integrators.h"
+#include "render/core/index.h"
 #include "render/image/atomic_file.h"
 #include "render/image/image_io.h"
-#include "render/scene/scene_reader.h"
 
 namespace h2mc {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-std::string contentOf(const std::string& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-std::map<std::string, std::string> definesOf(const ComparisonPlan& plan) {
-  std::map<std::string, std::string> defines;
-  for (const std::string& define : plan.defines) {
-    const std::size_t equals = define.find('=');
-    if (equals == 0 || equals == std::string::npos)
-      throw ComparisonError("-D " + define + ": expected name=value");
-    defines[define.substr(0, equals)] = define.substr(equals + 1);
-  }
-  return defines;
-}
 
 // One run as the plan has it.
 struct Job {
@@ -223,9 +204,7 @@ class Runner {
       results.push_back(std::move(scene));
     }
     for (std::size_t i = 0; i < jobs.size(); ++i)
-      results[jobs[i].scene]
-          .methods[jobs[i].method]
-          .repeats[static_cast<std::size_t>(jobs[i].repeat)] = runs[i];
+      results[jobs[i].scene].methods[jobs[i].method].repeats[at(jobs[i].repeat)] = runs[i];
   }
 
   const ComparisonPlan& plan_;
@@ -237,55 +216,6 @@ class Runner {
 };
 
 }  // namespace
-
-std::string hashOf(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325ull;
-  for (const unsigned char c : text) hash = (hash ^ c) * 0x100000001b3ull;
-  return fmt::format("{:016x}", hash);
-}
-
-fs::path runsFolder(const ComparisonPlan& plan, const ComparedScene& scene) {
-  return plan.folder / "runs" / scene.name;
-}
-
-json runKey(const ComparisonPlan& plan, const ComparisonSetup::OneScene& scene,
-            const OptionSet& integrator) {
-  return {{"programVersion", plan.programVersion},
-          {"scene", scene.hash},
-          {"defines", plan.defines},
-          {"width", scene.scene.film.width},
-          {"height", scene.scene.film.height},
-          {"integrator", integrator.integrator()},
-          {"options", optionText(integrator)},
-          {"threads", plan.threads}};
-}
-
-ComparisonSetup setUp(const ComparisonPlan& plan) {
-  for (const std::string& method : plan.methods) checkIntegratorWish(method);
-  std::vector<IntegratorPlugin> plugins;
-  for (const IntegratorFactory& factory : allIntegrators()) plugins.push_back(factory.plugin);
-  ReadOptions read;
-  read.defines = definesOf(plan);
-  read.integrators = plugins;
-  read.width = plan.width;
-  read.height = plan.height;
-  read.scale = plan.scale;
-  ComparisonSetup setup;
-  for (const ComparedScene& scene : plan.scenes) {
-    ComparisonSetup::OneScene one{readScene(scene.file, read), hashOf(contentOf(scene.file)), {}};
-    const FilmSettings& film = one.scene.film;
-    if (const auto size = sizeForReference(plan, scene, film.width, film.height)) {
-      ReadOptions atSize = read;
-      atSize.width = size->x;
-      atSize.height = size->y;
-      one.scene = readScene(scene.file, atSize);
-    }
-    for (const std::string& method : plan.methods)
-      one.methods.push_back(chooseIntegrator(method, one.scene));
-    setup.scenes.push_back(std::move(one));
-  }
-  return setup;
-}
 
 bool renderRuns(const ComparisonPlan& plan, const ComparisonSetup& setup,
                 const ComparisonObserver& observer, std::vector<SceneRuns>& results) {

@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: MIT
 #include "compare/summary.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "render/core/index.h"
 namespace h2mc {
 namespace {
 
@@ -162,13 +164,12 @@ Summary summarise(const SceneRuns& runs, const ComparisonPlan& plan, const std::
     result.fit = {sampleMoments(own.intercepts).mean, sampleMoments(own.slopes).mean,
                   !own.slopes.empty()};
     if (result.present &&
-        (summary.best < 0 ||
-         result.error.value < summary.methods[static_cast<std::size_t>(summary.best)].error.value))
+        (summary.best < 0 || result.error.value < summary.methods[at(summary.best)].error.value))
       summary.best = static_cast<int>(summary.methods.size());
     summary.methods.push_back(std::move(result));
   }
   if (summary.best < 0) return summary;
-  const MethodLines& best = lines[static_cast<std::size_t>(summary.best)];
+  const MethodLines& best = lines[at(summary.best)];
   for (std::size_t i = 0; i < lines.size(); ++i) {
     MethodSummary& method = summary.methods[i];
     if (!method.present) continue;

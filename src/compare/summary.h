@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a comparison says: errors with intervals, fits, how much longer each method takes, ranks.
 #pragma once
 

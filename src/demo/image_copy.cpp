@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: MIT
 #include "demo/image_copy.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "compare/embed.h"
+#include "render/core/index.h"
 #include "render/image/metrics.h"
 #include "render/integrator/parallel_rounds.h"
 
@@ -158,8 +160,7 @@ json copyImage(const PictureTarget& target, const ImageCopySettings& settings,
   parallelFor(settings.threads, chains + 2 * kSweepSteps, [&](int task) {
     if (stop) return;
     if (task < chains) {
-      const CopyKernel& kernel =
-          kernels[static_cast<std::size_t>(chains - 1 - task)];  // slow first
+      const CopyKernel& kernel = kernels[at(chains - 1 - task)];  // slow first
       CopyChain chain(target, kernel, settings.seed);
       json levels = json::array();
       for (const long long level : kLevels) {
@@ -173,10 +174,9 @@ json copyImage(const PictureTarget& target, const ImageCopySettings& settings,
       }
       json walk = json::array();
       for (const auto& [x, y] : chain.walk()) walk.push_back({x, y});
-      methods[static_cast<std::size_t>(chains - 1 - task)] = {
-          {"name", kernel.name},   {"text", kernel.text},
-          {"sigma", kernel.sigma}, {"largeShare", kernel.largeShare},
-          {"levels", levels},      {"walk", walk}};
+      methods[at(chains - 1 - task)] = {{"name", kernel.name},   {"text", kernel.text},
+                                        {"sigma", kernel.sigma}, {"largeShare", kernel.largeShare},
+                                        {"levels", levels},      {"walk", walk}};
       return;
     }
     const int step = (task - chains) % kSweepSteps;
@@ -187,10 +187,9 @@ json copyImage(const PictureTarget& target, const ImageCopySettings& settings,
                                              static_cast<float>(step) / (kSweepSteps - 1));
     CopyChain chain(target, kernel, settings.seed + 1);
     chain.run(kSweepLevel * pixels);
-    sweep[static_cast<std::size_t>(task - chains)] = {
-        {"sigma", kernel.sigma},
-        {"acceptance", chain.acceptance()},
-        {"relmse", relmse.compute(chain.copy(), reference)}};
+    sweep[at(task - chains)] = {{"sigma", kernel.sigma},
+                                {"acceptance", chain.acceptance()},
+                                {"relmse", relmse.compute(chain.copy(), reference)}};
   });
   if (stop) return nullptr;
   return {{"width", reference.width},

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Copying a picture by Metropolis sampling of its luminance: the method without light transport, in
 // two dimensions that can be seen.
 #pragma once
@@ -8,7 +9,7 @@
 #include <vector>
 
 #include "demo/picture_target.h"
-#include "mcmc/gaussian.h"
+#include "mcmc/mutations/gaussian.h"
 #include "render/core/random.h"
 
 namespace h2mc {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "compare/embed.h"
 #include "demo/image_copy.h"
 #include "demo/page_files.h"

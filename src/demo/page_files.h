@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The sources of the demonstrations' pages, as CMake embeds them.
 #pragma once
 

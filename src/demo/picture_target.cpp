@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: MIT
 #include "demo/picture_target.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "ad/dual2.h"
+#include "ad/dual.h"
 #include "ad/functions.h"
 #include "render/core/types.h"
 #include "render/image/metrics.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A picture as a function on the unit square, smooth enough for derivatives.
 #pragma once
 

@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: MIT
 #include "inspect/canvas.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "render/core/index.h"
 #include "render/image/color_encoding.h"
 
 namespace h2mc {
@@ -76,8 +78,7 @@ void Canvas::clip(int x, int y, int width, int height) {
 
 void Canvas::pixel(int x, int y, Color color, double alpha) {
   if (x < left_ || x >= right_ || y < top_ || y >= bottom_ || alpha <= 0) return;
-  Vec3f& p = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                     static_cast<std::size_t>(x)];
+  Vec3f& p = pixels_[at(y) * at(width_) + static_cast<std::size_t>(x)];
   p = p + (rgb(color) - p) * static_cast<float>(std::min(alpha, 1.0));
 }
 
@@ -116,7 +117,7 @@ void Canvas::text(int x, int y, std::string_view text, Color color) {
     const Glyph& glyph = kGlyphs[known ? c - ' ' : '?' - ' '];
     for (int row = 0; row < kRows; ++row)
       for (int column = 0; column < kColumns; ++column)
-        if (glyph[static_cast<std::size_t>(row)] >> (kColumns - 1 - column) & 1)
+        if (glyph[at(row)] >> (kColumns - 1 - column) & 1)
           rectangle(x + kTextScale * column, y + kTextScale * row, kTextScale, kTextScale, color);
     x += kTextScale * (kColumns + 1);
   }

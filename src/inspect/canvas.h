@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lines, dots and text on a picture: enough for plots.
 #pragma once
 

@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: MIT
 #include "inspect/film_preview.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "inspect/path_search.h"
+#include "render/core/index.h"
 #include "render/integrator/common_options.h"
 #include "render/integrator/parallel_rounds.h"
 #include "render/path/bidirectional.h"
@@ -39,12 +41,11 @@ Image previewFilm(const Scene& scene, int maxLength, std::uint64_t seed, int thr
           (static_cast<float>(column) + random.uniform()) / static_cast<float>(image.width);
       const float y =
           (static_cast<float>(row) + random.uniform()) / static_cast<float>(image.height);
-      sampler.sample(
-          scene, random, std::min(x, kBelowOne), std::min(y, kBelowOne), 1,
-          [&](const BidirectionalSampler::Connection& c) {
-            splats[static_cast<std::size_t>(row)].push_back(
-                {pixelAt(c.filmX, image.width), pixelAt(c.filmY, image.height), c.contribution});
-          });
+      sampler.sample(scene, random, std::min(x, kBelowOne), std::min(y, kBelowOne), 1,
+                     [&](const BidirectionalSampler::Connection& c) {
+                       splats[at(row)].push_back({pixelAt(c.filmX, image.width),
+                                                  pixelAt(c.filmY, image.height), c.contribution});
+                     });
     }
   });
   for (const auto& ofRow : splats)

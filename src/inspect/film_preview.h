@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The scene's picture in small, so that one sees where a path is.
 #pragma once
 

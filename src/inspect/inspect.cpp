@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "inspect/inspect.h"
 
 #include <fmt/format.h>
@@ -7,9 +8,10 @@
 
 #include "inspect/film_preview.h"
 #include "inspect/path_search.h"
-#include "mcmc/bootstrap.h"
-#include "mcmc/direct_lighting.h"
-#include "mcmc/h2mc.h"
+#include "mcmc/mutations/hamiltonian_step.h"
+#include "mcmc/populations/bootstrap.h"
+#include "mcmc/render/direct_lighting.h"
+#include "render/core/index.h"
 #include "render/integrator/common_options.h"
 #include "render/scene/suggestion.h"
 
@@ -57,7 +59,7 @@ std::vector<NamedPair> pairNames(const LocalModel& model, const Path& path,
   if (model.eigen.size() > kStrongest) eigen.push_back(fmt::format("e{}", model.eigen.size()));
   for (std::size_t i = 0; i < eigen.size(); ++i)
     for (std::size_t j = i + 1; j < eigen.size(); ++j) add(eigen[i], eigen[j]);
-  const auto own = static_cast<std::size_t>(path.technique.dimension());
+  const auto own = at(path.technique.dimension());
   for (std::size_t i = 0; i < std::min(own, 2 * kMostCoordinatePairs); i += 2)
     add(fmt::format("u{}", i), fmt::format("u{}", i + 1));
   if (path.moving) add("u0", "time");
@@ -111,10 +113,6 @@ PathLengths lengthsOf(const OptionSet& options, const InspectSettings& settings)
     lengths.longest = std::max(lengths.longest, settings.given.length());
     lengths.shortest = std::min(lengths.shortest, settings.given.length());
   }
-  if (lengths.shortest > lengths.longest)
-    throw InspectError(
-        fmt::format("minDepth {} is above maxDepth {}: there are no paths to look at",
-                    lengths.shortest, lengths.longest));
   const bool split = options.integer("directSamples") != 0;
   lengths.usual = std::max(lengths.shortest, split ? DirectLighting::kLongest + 1 : 1);
   if (lengths.usual > lengths.longest) lengths.usual = lengths.shortest;
@@ -188,10 +186,8 @@ Inspection inspect(const Scene& scene, const MetropolisMethod& method, const Opt
   tracePairs(scene, settings, result);
   ChainState state(maxLength);
   state.path = result.path;
-  const bool camera = result.path.technique.t >= 2;
   for (std::size_t k = 0; k < static_cast<std::size_t>(kernels.kinds()) && !stopped(); ++k) {
-    // What a method never proposes for paths that the light subpath ends may not be possible there.
-    if (k > 0 && !camera && !(kernels.small[k - 1].lightShare > 0)) continue;
+    if (!kernels.mutation(k).applies(result.path)) continue;
     result.kinds.push_back(propose(scene, kernels.mutation(k), state, result.model,
                                    settings.proposals, Random(settings.seed, kProposalStream, k)));
   }

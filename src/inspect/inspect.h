@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One path of a pixel and what the mutations see of the target around it: `h2mc inspect`.
 //
 // All offsets are in primary coordinates, from the path's primary sample.
@@ -5,22 +6,22 @@
 
 #include <atomic>
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "inspect/local_model.h"
 #include "inspect/proposals.h"
 #include "inspect/slice.h"
-#include "mcmc/metropolis_integrator.h"
+#include "mcmc/methods/method.h"
+#include "render/core/user_error.h"
 #include "render/image/image.h"
 
 namespace h2mc {
 
 // The wish can't be met: what() is the whole message.
-class InspectError : public std::runtime_error {
+class InspectError : public UserError {
  public:
-  using std::runtime_error::runtime_error;
+  using UserError::UserError;
 };
 
 // No path through the pixel contributes: nobody's mistake.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "inspect/local_model.h"
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include <numeric>
 
 #include "ad/symmetric_eigen.h"
+#include "render/core/index.h"
 
 namespace h2mc {
 namespace {
@@ -95,7 +97,7 @@ Direction LocalModel::direction(const std::string& name, bool moving) const {
   const std::vector<std::string> all = names(moving);
   const auto found = std::find(all.begin(), all.end(), name);
   if (found == all.end()) return {};
-  const auto index = static_cast<std::size_t>(found - all.begin());
+  const auto index = at(found - all.begin());
   if (index < eigen.size()) return {name, eigen[index].vector};
   Direction coordinate{name, std::vector<double>(static_cast<std::size_t>(dimension), 0)};
   coordinate.vector[index - eigen.size()] = 1;

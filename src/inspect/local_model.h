@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a chain knows of the target around a path: the quadratic approximation of its logarithm, and the
 // Gaussian that Hamiltonian dynamics on it gives.
 #pragma once
@@ -5,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mcmc/gaussian.h"
+#include "mcmc/mutations/gaussian.h"
 
 namespace h2mc {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The sources of the page, as CMake embeds them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "inspect/path_search.h"
 
 #include <algorithm>
@@ -49,7 +50,7 @@ bool findPath(const SceneTarget& target, KernelMixture& kernels, int minLength,
     sampler.sample(scene, random, x, y, minLength, [&](const BidirectionalSampler::Connection& c) {
       if (!inPixel(c.filmX, c.filmY)) return;
       ++search.contributing;
-      const Candidate candidate{c.technique, sampler.primarySample(c.technique), target.target(c)};
+      const Candidate candidate{c.technique, sampler.primarySample(c.technique), target.of(c)};
       sum += candidate.target;
       if (random.uniformDouble() * sum < candidate.target) drawn = candidate;
       if (candidate.target > largest.target) largest = candidate;
@@ -70,12 +71,13 @@ bool findPath(const SceneTarget& target, KernelMixture& kernels, int minLength,
   context.random = &chain;
   const double large = std::exchange(kernels.largeProbability, 0);
   for (long long i = 0; i < settings.mutations && !stopped(); ++i) {
-    Mutation& mutation = kernels.mutation(kernels.choose(current.path, chain));
+    const auto choice = kernels.choose(current.path, chain);
+    if (!choice) continue;
     proposed.forget();
-    double logRatio = 0;
-    if (!mutation.propose(current, proposed, context, logRatio) ||
-        !inPixel(proposed.path.filmX, proposed.path.filmY) ||
-        !(chain.uniform() < acceptanceProbability(current.path, proposed.path, logRatio)))
+    const Proposal proposal = kernels.mutation(choice->kind).propose(current, proposed, context);
+    if (!proposal.made() || !inPixel(proposed.path.filmX, proposed.path.filmY) ||
+        !(chain.uniform() < proposal.acceptance(current.path, proposed.path,
+                                                kernels.logRatio(*choice, proposed.path))))
       continue;
     // What a lens perturbation has joined must be there when it is traced again.
     if (!target.evaluate(proposed.path)) continue;

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: MIT
 // Finds a path through a pixel.
 #pragma once
 
 #include "inspect/inspect.h"
-#include "mcmc/chain.h"
+#include "mcmc/chain/chain.h"
 
 namespace h2mc {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "inspect/picture.h"
 
 #include <fmt/format.h>
@@ -95,9 +96,7 @@ class Picture {
     for (std::size_t k = 0; k < inspection_.kinds.size(); ++k) {
       place(2 + static_cast<int>(k));
       const ProposalKind& kind = inspection_.kinds[k];
-      const std::string title =
-          fmt::format("{} {:.0f} %", kind.name == "hessian-hamiltonian" ? "hamiltonian" : kind.name,
-                      100 * kind.acceptance);
+      const std::string title = fmt::format("{} {:.0f} %", kind.name, 100 * kind.acceptance);
       if (kind.name == "large") {
         drawFilm(kind);
         canvas_.text(left_, top_ - 22, title + ", on the film", kInk);
@@ -230,11 +229,11 @@ class Picture {
   }
 
   void drawProposals(const ProposalKind& kind) {
-    if (kind.name == "hessian-hamiltonian") drawGaussian();
+    if (kind.name == "hamiltonian") drawGaussian();
     int beyond = 0, lost = 0;
     canvas_.clip(left_, top_, plot_, plot_);
     for (const bool wanted : {false, true})
-      for (const Proposal& p : kind.proposals) {
+      for (const InspectedProposal& p : kind.proposals) {
         if (p.accepted != wanted) continue;
         if (p.offset.empty()) {
           ++lost;
@@ -275,7 +274,7 @@ class Picture {
     canvas_.clip(left_, top_, width, height);
     int lost = 0;
     for (const bool wanted : {false, true})
-      for (const Proposal& p : kind.proposals) {
+      for (const InspectedProposal& p : kind.proposals) {
         if (p.accepted != wanted) continue;
         if (p.filmX < 0) {
           ++lost;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A pair of directions as one picture.
 #pragma once
 

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: MIT
 #include "inspect/proposals.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "mcmc/small_step.h"
+#include "mcmc/mutations/primary_offset.h"
 #include "render/scene/scene.h"
 
 namespace h2mc {
@@ -44,12 +45,12 @@ ProposalKind propose(const Scene& scene, Mutation& mutation, ChainState& state,
     to.sample.time = from.sample.time;
     to.target = 0;
     // The light and camera subpaths that a large step completes the state with are drawn anew.
-    state.bidirectional = 0;
-    double logRatio = 0;
-    const bool made = mutation.propose(state, proposed, context, logRatio);
+    state.forget();
+    const Proposal proposal = mutation.propose(state, proposed, context);
+    const bool made = proposal.made();
 
-    Proposal p;
-    if (made) p.acceptance = acceptanceProbability(from, to, logRatio);
+    InspectedProposal p;
+    p.acceptance = proposal.acceptance(from, to);
     p.accepted = random.uniform() < p.acceptance;
     const bool lit = to.target > 0;
     kind.dark += !lit;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Many proposals of one mutation from one state.
 #pragma once
 
@@ -5,11 +6,11 @@
 #include <vector>
 
 #include "inspect/local_model.h"
-#include "mcmc/mutation.h"
+#include "mcmc/chain/mutation.h"
 
 namespace h2mc {
 
-struct Proposal {
+struct InspectedProposal {
   // In the state's dimension(), the short way round in every coordinate. Empty where there is none: the
   // proposal has another technique, or ended before all of its coordinates were known.
   std::vector<float> offset;
@@ -22,7 +23,7 @@ struct Proposal {
 // it is made.
 struct ProposalKind {
   std::string name;
-  std::vector<Proposal> proposals;
+  std::vector<InspectedProposal> proposals;
   double acceptance = 0;                 // mean
   double jump = 0;                       // mean length, in primary space, within the technique
   double filmJump = 0;                   // mean length on the film, in pixels

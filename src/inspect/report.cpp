@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "inspect/report.h"
 
 #include <fmt/format.h>
@@ -9,9 +10,10 @@
 #include "compare/embed.h"
 #include "inspect/film_preview.h"
 #include "inspect/page_files.h"
-#include "mcmc/integrator_choice.h"
-#include "mcmc/path_vertices.h"
+#include "mcmc/render/integrator_choice.h"
+#include "render/core/index.h"
 #include "render/path/path_text.h"
+#include "render/path/path_vertices.h"
 #include "render/scene/kinds.h"
 
 namespace h2mc {
@@ -56,11 +58,10 @@ std::vector<std::string> vertexNames(const Scene& scene, const Path& path) {
     names.emplace_back(bsdf ? kindOf(*bsdf) : "black");
   };
   // With s = 0 the camera's last vertex is the light, or beyond the scene.
-  for (int i = 1; i < (s == 0 ? t - 1 : t); ++i) add(path.camera[static_cast<std::size_t>(i)]);
-  for (int i = s - 1; i >= 1; --i) add(path.light[static_cast<std::size_t>(i)]);
+  for (int i = 1; i < (s == 0 ? t - 1 : t); ++i) add(path.camera[at(i)]);
+  for (int i = s - 1; i >= 1; --i) add(path.light[at(i)]);
   if (path.lightIndex >= 0)
-    names.emplace_back(
-        std::string(kindOf(scene.lights[static_cast<std::size_t>(path.lightIndex)])) + " light");
+    names.emplace_back(std::string(kindOf(scene.lights[at(path.lightIndex)])) + " light");
   return names;
 }
 
@@ -128,7 +129,7 @@ json kindJson(const ProposalKind& kind, int dimension, ArrayForm form) {
   std::vector<float> film, offsets, acceptance;
   std::vector<int> accepted;
   json lists = json::array();
-  for (const Proposal& p : kind.proposals) {
+  for (const InspectedProposal& p : kind.proposals) {
     film.push_back(p.filmX);
     film.push_back(p.filmY);
     acceptance.push_back(static_cast<float>(p.acceptance));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What `h2mc inspect` found, for people and for programs.
 #pragma once
 

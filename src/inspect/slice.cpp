@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: MIT
 #include "inspect/slice.h"
 
 #include <cmath>
 #include <limits>
 
-#include "mcmc/small_step.h"
+#include "mcmc/mutations/primary_offset.h"
+#include "render/core/index.h"
 #include "render/integrator/parallel_rounds.h"
 
 namespace h2mc {
@@ -24,7 +26,7 @@ SliceCell compareTopology(const Path& path, const Path& other) {
   const auto sameSubpath = [&](const std::vector<TracedVertex>& a,
                                const std::vector<TracedVertex>& b, int vertices) {
     for (int i = 1; i <= vertices; ++i) {
-      const auto k = static_cast<std::size_t>(i);
+      const auto k = at(i);
       const bool arrives = !(i == t - 1 && path.escaped && &a == &path.camera);
       if (arrives && !sameShape(a[k].id, b[k].id)) return false;
       if (i < vertices && !(a[k].lobe == b[k].lobe)) return false;

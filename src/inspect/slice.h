@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The target on a plane through a path's point in primary space.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the tests of src/ad share: random duals, and closed forms to hold results against.
 #pragma once
 
@@ -10,7 +11,7 @@
 #include <random>
 #include <utility>
 
-#include "ad/dual2.h"
+#include "ad/dual.h"
 #include "ad/functions.h"
 #include "ad/traits.h"
 
@@ -63,37 +64,38 @@ inline Expected chainOf(const Expected& a, const Expected& b, const Partials& p)
   return e;
 }
 
-/// Fails where `got` is further from `want` than `ulps` times the precision of T, relative to the
-/// largest entry of the same order.
-template <class T, int N>
-[[gnu::noinline]] void expectNear(const Dual2<T, N>& got, const Expected& want, Extended ulps,
-                                  const char* what) {
-  const Extended eps = ulps * std::numeric_limits<T>::epsilon();
+/// Fails where `got` is further from `want` than `eps`, relative to the largest entry of the same order. Not a
+/// template, and so compiled once in each file rather than for every size and precision.
+[[gnu::noinline]] inline void expectNear(const Expected& got, const Expected& want, int n,
+                                         Extended eps, const char* what) {
   Extended gradientScale = 0, hessianScale = 0;
-  for (int i = 0; i < N; ++i) {
+  for (int i = 0; i < n; ++i) {
     gradientScale = std::max(gradientScale, std::abs(want.g[i]));
-    for (int j = 0; j < N; ++j) hessianScale = std::max(hessianScale, std::abs(want.h[i][j]));
+    for (int j = 0; j < n; ++j) hessianScale = std::max(hessianScale, std::abs(want.h[i][j]));
   }
   EXPECT_NEAR(got.v, want.v, eps * std::max<Extended>(std::abs(want.v), 1e-3L))
-      << what << " N=" << N;
-  for (int i = 0; i < N; ++i) {
-    EXPECT_NEAR(got.gradient(i), want.g[i], eps * gradientScale)
-        << what << " N=" << N << " gradient " << i;
-    for (int j = 0; j < N; ++j)
-      EXPECT_NEAR(got.hessian(i, j), want.h[i][j], eps * hessianScale)
-          << what << " N=" << N << " Hessian " << i << "," << j;
+      << what << " N=" << n;
+  for (int i = 0; i < n; ++i) {
+    EXPECT_NEAR(got.g[i], want.g[i], eps * gradientScale)
+        << what << " N=" << n << " gradient " << i;
+    for (int j = 0; j < n; ++j)
+      EXPECT_NEAR(got.h[i][j], want.h[i][j], eps * hessianScale)
+          << what << " N=" << n << " Hessian " << i << "," << j;
   }
+}
+
+/// The same in units of the precision of T.
+template <class T, int N>
+void expectNear(const Dual2<T, N>& got, const Expected& want, Extended ulps, const char* what) {
+  expectNear(expand(got), want, N, ulps * std::numeric_limits<T>::epsilon(), what);
 }
 
 /// Fails unless every derivative is exactly zero and the value is `value`.
 template <class T, int N>
-[[gnu::noinline]] void expectConstant(const Dual2<T, N>& got, T value, const char* what) {
-  EXPECT_EQ(got.v, value) << what;
-  for (int i = 0; i < N; ++i) {
-    EXPECT_EQ(got.gradient(i), T(0)) << what << " N=" << N << " gradient " << i;
-    for (int j = 0; j <= i; ++j)
-      EXPECT_EQ(got.hessian(i, j), T(0)) << what << " N=" << N << " Hessian " << i << "," << j;
-  }
+void expectConstant(const Dual2<T, N>& got, T value, const char* what) {
+  Expected constant;
+  constant.v = value;
+  expectNear(expand(got), constant, N, 0, what);
 }
 
 /// A dual with value `value` and random derivatives in [-1, 1].

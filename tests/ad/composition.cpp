@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ad::Composition on recurrences whose derivatives Dual2 gives as a whole.
 #include "ad/composition.h"
 
@@ -8,6 +9,7 @@
 #include <random>
 
 #include "ad/functions.h"
+#include "render/core/index.h"
 
 namespace h2mc::ad {
 namespace {
@@ -89,8 +91,7 @@ TYPED_TEST(AdComposition, Recurrence) {
 
     using D = Dual2<double, kSteps>;
     D active[kSteps];
-    for (int k = 0; k < kSteps; ++k)
-      active[k] = D::variable(double(u[static_cast<std::size_t>(k + extra)]), k);
+    for (int k = 0; k < kSteps; ++k) active[k] = D::variable(double(u[at(k + extra)]), k);
     const D expected = whole(active);
     EXPECT_NEAR(value, expected.v, tolerance * (1 + std::abs(expected.v)));
     const auto lane = [&](int i) { return i - extra; };
@@ -98,7 +99,7 @@ TYPED_TEST(AdComposition, Recurrence) {
     std::size_t k = 0;
     for (int i = 0; i < kSteps + 2 * extra; ++i) {
       const double g = active0(i) ? expected.gradient(lane(i)) : 0;
-      EXPECT_NEAR(gradient[static_cast<std::size_t>(i)], g, tolerance * (1 + std::abs(g)));
+      EXPECT_NEAR(gradient[at(i)], g, tolerance * (1 + std::abs(g)));
       for (int j = 0; j <= i; ++j, ++k) {
         const double h = active0(i) && active0(j) ? expected.hessian(lane(i), lane(j)) : 0;
         EXPECT_NEAR(hessian[k], h, tolerance * (1 + std::abs(h))) << i << ", " << j;
@@ -158,8 +159,7 @@ TYPED_TEST(AdComposition, TellsHowMuchTermsCancel) {
   // scale (u_i u_i + 3 u_i u_j)
   const auto quadratic = [&](int i, int j, T scale) {
     D* const outputs = c.template outputs<2>(1);
-    const D x = D::variable(u[static_cast<std::size_t>(i)], 0),
-            y = D::variable(u[static_cast<std::size_t>(j)], 1);
+    const D x = D::variable(u[at(i)], 0), y = D::variable(u[at(j)], 1);
     outputs[0] = (x * x + x * y * T(3)) * scale;
     const int inputs[2] = {i, j};
     return c.apply(inputs, 1);
@@ -232,7 +232,7 @@ TYPED_TEST(AdComposition, LogSumExpOfSum) {
           c.differentiate(result, gradient, hessian);
           return c.value(result);
         };
-        const auto size = static_cast<std::size_t>(n);
+        const auto size = at(n);
         std::vector<T> g(size), h(size * (size + 1) / 2), wantG(g), wantH(h);
         const T value = evaluate(true, g.data(), h.data());
         EXPECT_NEAR(value, evaluate(false, wantG.data(), wantH.data()), 10 * distance * tolerance);

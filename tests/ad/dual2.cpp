@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Construction, lifting, comparisons and finiteness of Dual2, for every size and both precisions.
 
 #include <type_traits>

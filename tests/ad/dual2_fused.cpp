@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Fused sums of Dual2 against the operators, and identities, for every size and both precisions.
 
 #include "ad_support.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The operators of Dual2 against closed forms, for every size and both precisions.
 
 #include "ad_support.h"

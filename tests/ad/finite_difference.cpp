@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Finite differences against known derivatives, and composite expressions of duals against finite
 // differences.
 

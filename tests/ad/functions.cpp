@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The functions of duals against closed forms, and at the points where they have no derivative.
 
 #include "ad_support.h"

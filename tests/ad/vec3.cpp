@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Vectors of duals: GLM's type takes them, our overloads win over GLM's, and both agree.
 
 #include "ad/vec3.h"

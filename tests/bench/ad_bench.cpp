@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What second-order derivatives cost: one expression of the kind a path vertex evaluates (points on
 // two triangles, a rough reflection between them), with plain numbers and with duals of N
 // coordinates. The counter "x plain" is the time as a multiple of the plain evaluation's.

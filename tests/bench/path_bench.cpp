@@ -1,14 +1,20 @@
+// SPDX-License-Identifier: MIT
 // What a path costs: its value, derivatives, Gaussian and mutations, by scene and by length.
 //
 // Every figure is the mean over the same mixture of techniques, so that "value" is the unit for the
-// others of its row. scripts/bench-table.py makes the README's table of them.
+// others of its row. scripts/bench-table.py makes the table of docs/measurements.md of them.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
 
-#include "mcmc/integrators.h"
-#include "mcmc/lens_step.h"
-#include "mcmc/small_step.h"
+#include "mcmc/mutations/hamiltonian_step.h"
+#include "mcmc/mutations/isotropic_step.h"
+#include "mcmc/mutations/langevin_step.h"
+#include "mcmc/mutations/lens_step.h"
+#include "mcmc/render/integrators.h"
+#include "render/core/index.h"
+#include "render/path/assemble.h"
+#include "render/path/path_densities.h"
 #include "render/path/replay.h"
 #include "render/scene/scene_reader.h"
 #include "sampled_paths.h"
@@ -35,10 +41,10 @@ const SampledScene* sampledScene(const std::string& file) {
     for (const IntegratorFactory& f : allIntegrators()) plugins.push_back(f.plugin);
     options.integrators = plugins;
     it->second = std::make_unique<SampledScene>(SampledScene{readScene(file, options)});
-    test::forSampledPaths(
-        it->second->scene, kMaxLength, kPerTechnique, kSamples, [&](const Path& path, float) {
-          it->second->byLength[static_cast<std::size_t>(path.technique.length())].push_back(path);
-        });
+    test::forSampledPaths(it->second->scene, kMaxLength, kPerTechnique, kSamples,
+                          [&](const Path& path, float) {
+                            it->second->byLength[at(path.technique.length())].push_back(path);
+                          });
   }
   return it->second.get();
 }
@@ -50,7 +56,7 @@ void overPaths(benchmark::State& state, const std::string& file, int length, Wor
   const SampledScene* sampled = sampledScene(file);
   if (!sampled) return state.SkipWithError("no such scene");
   std::vector<const Path*> paths;
-  for (const Path& path : sampled->byLength[static_cast<std::size_t>(length)])
+  for (const Path& path : sampled->byLength[at(length)])
     if (!wanted || wanted(sampled->scene, path)) paths.push_back(&path);
   if (paths.empty()) return state.SkipWithError("no path of this length");
   std::size_t i = 0;
@@ -99,6 +105,14 @@ void chosenDerivative(benchmark::State& state, const std::string& file, int leng
   });
 }
 
+void gradientAlone(benchmark::State& state, const std::string& file, int length) {
+  Gradient result;
+  overPaths(state, file, length, [&](const Scene& scene, const Path& path) {
+    differentiateOnce(scene, path, result);
+    benchmark::DoNotOptimize(result);
+  });
+}
+
 void gaussian(benchmark::State& state, const std::string& file, int length) {
   Derivative result;
   Gaussian made;
@@ -140,12 +154,34 @@ void mutation(benchmark::State& state, const std::string& file, int length,
   Random random(1, 2, 3);
   MutationContext context;
   context.random = &random;
-  double logRatio = 0;
   overPaths(state, file, length, [&](const Scene&, const Path& path) {
     auto [it, added] = states.try_emplace(&path, kMaxLength);
     if (added) it->second.path = path;
     proposed.forget();
-    benchmark::DoNotOptimize(kernel->propose(it->second, proposed, context, logRatio));
+    benchmark::DoNotOptimize(kernel->propose(it->second, proposed, context));
+  });
+}
+
+// The path in path space, with the densities of all techniques; and assembled in the technique that has most
+// of its weight.
+void pathDensities(benchmark::State& state, const std::string& file, int length) {
+  auto full = std::make_unique<FullPath>();
+  overPaths(state, file, length, [&](const Scene& scene, const Path& path) {
+    toFull(scene, path, *full);
+    benchmark::DoNotOptimize(densities(scene, *full));
+  });
+}
+void densitiesAndAssemble(benchmark::State& state, const std::string& file, int length) {
+  auto full = std::make_unique<FullPath>();
+  Path assembled(kMaxLength);
+  Random random(1, 0, 0);
+  overPaths(state, file, length, [&](const Scene& scene, const Path& path) {
+    toFull(scene, path, *full);
+    const TechniqueDensities d = densities(scene, *full);
+    const auto end = d.weight.begin() + d.edges + 1;
+    const auto s = static_cast<int>(std::max_element(d.weight.begin(), end) - d.weight.begin());
+    benchmark::DoNotOptimize(
+        assemble(scene, *full, {s, d.edges + 1 - s}, kNoEdge, random, assembled));
   });
 }
 
@@ -160,14 +196,22 @@ void registerScene(const std::string& name, const std::string& file) {
   add("derivative", derivative);
   add("plain derivative", plainDerivative);
   add("chosen derivative", chosenDerivative);
+  add("gradient", gradientAlone);
   add("derivative+gaussian", gaussian);
   add("sample+density", sampleAndDensity);
+  add("path densities", pathDensities);
+  add("path densities+assemble", densitiesAndAssemble);
   using Make = std::function<std::unique_ptr<Mutation>(const SceneTarget&)>;
   add("mutation:isotropic", mutation, Make([](const SceneTarget& target) {
         return std::make_unique<IsotropicStep>(target, StepShape::kGaussian, 0.01f);
       }));
   add("mutation:hamiltonian", mutation, Make([](const SceneTarget& target) {
-        return std::make_unique<HamiltonianStep>(target, HamiltonianSettings{});
+        SlotNumbers slots;
+        return std::make_unique<HamiltonianStep>(target, HamiltonianSettings{}, slots);
+      }));
+  add("mutation:langevin", mutation, Make([](const SceneTarget& target) {
+        SlotNumbers slots;
+        return std::make_unique<LangevinStep>(target, LangevinStep::Settings{}, slots);
       }));
 }
 

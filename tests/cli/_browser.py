@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What the tests of pages share: headless Chromium and Firefox, driven by Selenium. Skipped without."""
 
 import os

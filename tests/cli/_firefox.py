@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Firefox for Selenium without geckodriver, which Debian 12 does not have: a server on this machine that passes
 WebDriver's requests on to Firefox's own remote control, Marionette, which has the same commands by other names."""
 

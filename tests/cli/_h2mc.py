@@ -1,12 +1,17 @@
+# SPDX-License-Identifier: MIT
 """What the tests of the program share: running it, small scenes and images, EXR headers."""
 
 import json
 import os
+import pathlib
+import re
 import shutil
+import signal
 import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import zlib
 
@@ -14,13 +19,23 @@ BINARY = os.environ.get("H2MC_BINARY", "")
 SOURCE_DIR = os.environ.get("H2MC_SOURCE_DIR",
                             os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 RING = os.path.join(SOURCE_DIR, "scenes", "ring", "ring.xml")
-INTEGRATORS = ("path", "bdpt", "mmlt", "h2mc")
+INTEGRATORS = ("path", "bdpt", "mmlt", "h2mc", "lmc", "rjmlt", "mlt")
 
+
+def wait_for_handler(process, seconds=60):
+    """Returns when the process is ready for a SIGINT: on a busy machine that takes a while."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end and process.poll() is None:
+        status = pathlib.Path(f"/proc/{process.pid}/status").read_text(encoding="ascii")
+        caught = int(re.search(r"^SigCgt:\s*([0-9a-f]+)", status, re.MULTILINE).group(1), 16)
+        if caught >> (signal.SIGINT - 1) & 1:
+            return
+        time.sleep(0.05)
 
 
 def quick(integrator, *options):
     """The integrator for -i, with less preparation than it makes for a real image."""
-    if integrator in ("mmlt", "h2mc"):
+    if integrator not in ("path", "bdpt"):
         options = ("bootstrapSamples=4000", "chains=32", *options)
     return integrator + (":" if options else "") + ",".join(options)
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """h2mc inspect"""
 
 import base64
@@ -31,7 +32,7 @@ class Inspect(_h2mc.Test):
             with open(self.path(os.path.join("out", name)), "rb") as stream:
                 self.assertEqual(stream.read(8), b"\x89PNG\r\n\x1a\n")
         for words in ("pixel 10,12", "eigenvalue", "e1", "deviation", "camera - diffuse", "acceptance",
-                      "large", "isotropic", "hessian-hamiltonian"):
+                      "large", "isotropic", "hamiltonian"):
             self.assertIn(words, result.stdout)
 
         report = json.loads(self.read("a.json"))
@@ -77,7 +78,7 @@ class Inspect(_h2mc.Test):
         self.inspect("--pixel", "10,12", "-i", "mmlt:maxDepth=3", "--path", "largest", "-o", "out", "--json", "m")
         report = json.loads(self.read("m"))
         self.assertEqual(report["integrator"], "mmlt")
-        self.assertNotIn("hessian-hamiltonian", [kind["name"] for kind in report["kinds"]])
+        self.assertNotIn("hamiltonian", [kind["name"] for kind in report["kinds"]])
         self.inspect("--pixel", "10,12", "-i", ":minDepth=9,maxDepth=9", "-o", "out", "--json", "long")
         report = json.loads(self.read("long"))
         self.assertEqual(report["path"]["edges"], 9)

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """h2mc list and h2mc info"""
 
 import os
@@ -18,9 +19,17 @@ class List(_h2mc.Test):
             self.assertRegex(text, rf"(?m)^  {name}( |$)")
 
     def test_sections(self):
-        for section in ("bsdfs", "lights", "shapes", "textures", "integrators"):
+        for section in ("bsdfs", "lights", "shapes", "textures", "integrators", "mutations",
+                        "presets"):
             text = self.succeeds("list", section).stdout
             self.assertEqual(re.findall(r"(?m)^\S.*", text), [section])
+
+    def test_mutations_and_presets(self):
+        text = self.succeeds("list", "mutations").stdout
+        for name in ("isotropic", "hamiltonian", "lens", "bidirectional", "multiplexed"):
+            self.assertRegex(text, rf"(?m)^  {name}$")
+        self.assertRegex(text, r"trajectoryLength +number ")
+        self.assertRegex(self.succeeds("list", "mmlt-2014").stdout, r"mmlt:largeStep=multiplexed,")
 
     def test_one_entry(self):
         text = self.succeeds("list", "phong").stdout
@@ -29,6 +38,23 @@ class List(_h2mc.Test):
 
     def test_unknown(self):
         self.fails(2, "list", "bsdfz", says=("bsdfz", "integrators"))
+
+    def test_markdown_has_what_the_text_has(self):
+        text = self.succeeds("list").stdout
+        markdown = self.succeeds("list", "--markdown").stdout
+        self.assertEqual(re.findall(r"(?m)^## (.*)", markdown), re.findall(r"(?m)^(\S.*)", text))
+        entries = [name.split(" (also ")[0] for name in re.findall(r"(?m)^  (\S.*)", text)]
+        self.assertEqual(re.findall(r"(?m)^### (.*)", markdown), entries)
+        self.assertRegex(markdown, r"(?m)^\| `exponent` \| number \| `30` \| of the cosine")
+        self.assertRegex(markdown, r"(?m)^Read and not used: .*`sampleVisible`")
+        for row in re.findall(r"(?m)^\|.*", markdown):
+            self.assertEqual(len(re.findall(r"(?<!\\)\|", row)), 5, row)
+
+    def test_markdown_of_a_part(self):
+        markdown = self.succeeds("list", "textures", "--markdown").stdout
+        self.assertEqual(re.findall(r"(?m)^##? .*", markdown), ["## textures"])
+        markdown = self.succeeds("list", "phong", "--markdown").stdout
+        self.assertEqual(re.findall(r"(?m)^#+ .*", markdown), ["## bsdfs", "### phong"])
 
 
 class Info(_h2mc.Test):

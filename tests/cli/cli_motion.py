@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Scenes in which things move, as a user sees them."""
 
 import _h2mc

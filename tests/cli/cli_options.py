@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Options that are wrong end with exit code 2, one message, and no file."""
 
 import os
@@ -20,6 +21,17 @@ class General(_h2mc.Test):
                        "--mutations-per-pixel", "--seed", "--threads", "--width", "--height",
                        "--scale", "-D", "--stats", "--quiet", "--png"):
             self.assertIn(option, self.succeeds("render", "--help").stdout)
+
+    def test_misspelt_option(self):
+        self.fails(2, "render", "scene.xml", "--thread", 2, says=("--thread", 'did you mean "--threads"'))
+        self.fails(2, "compare", "scene.xml", "-o", "x", "--repaets=2", says=("--repaets", 'did you mean "--repeats"'))
+
+    def test_threads_and_seed(self):
+        for command in ("render", "inspect", "gradcheck", "stress"):
+            for bad in ("0", "-1", "1.5", "1025", "100000", "x", ""):
+                self.fails(2, command, "scene.xml", "--threads", bad, says=("--threads", "from 1 to 1024", f'"{bad}"'))
+            for bad in ("-1", "1.5", "18446744073709551616", "x", ""):
+                self.fails(2, command, "scene.xml", "--seed", bad, says=("--seed", "18446744073709551615", f'"{bad}"'))
 
     def test_commands(self):
         self.fails(2)
@@ -53,6 +65,14 @@ class Render(_h2mc.Test):
         self.fails(2, "render", "scene.xml", "-i", "path:maxDepth", says="option=value")
         self.fails(2, "render", "scene.xml", "-i", "path:=3", says="option=value")
 
+    def test_depths(self):
+        self.fails(2, "render", "scene.xml", "-i", "path:minDepth=3,maxDepth=2",
+                   says="minDepth 3 is above maxDepth 2: there are no paths")
+        self.assertEqual(self.files(), ["scene.xml"])
+        result = self.succeeds("render", "scene.xml", "-i", "path:maxDepth=33", "-s", 1, "-o", "a.exr")
+        self.assertIn("maxDepth 33 is above what the renderer goes to: paths have at most 32 edges", result.stderr)
+        self.assertIn("maxDepth=32", self.read_exr("a.exr")[0]["integratorOptions"])
+
     def test_size(self):
         self.fails(2, "render", "scene.xml", "--scale", 2, "--width", 5, says="--scale")
 
@@ -71,6 +91,19 @@ class Render(_h2mc.Test):
         self.fails(2, "render", "none.xml", "--stats", "nowhere/stats.json", says="nowhere")
         os.mkdir(self.path("folder.exr"))
         self.fails(2, "render", "none.xml", "-o", "folder.exr", says="folder.exr")
+
+    def test_outputs_are_other_files(self):
+        self.write("a.exr", "")
+        os.symlink(self.path("a.exr"), self.path("link.json"))
+        self.fails(2, "render", "scene.xml", "-o", "a.exr", "--stats", "a.exr", says=("the image", "--stats"))
+        self.fails(2, "render", "scene.xml", "-o", "a.exr", "--stats", "link.json", says=("the image", "--stats"))
+        self.fails(2, "render", "scene.xml", "-o", "a.exr", "--stats", "./scene.xml", says=("the scene", "--stats"))
+        self.fails(2, "render", "scene.exr", "-o", "scene.exr", says=("the scene", "the image"))
+        for command in (["gradcheck"], ["stress"], ["inspect", "--pixel", "1,1"]):
+            self.fails(2, *command, "scene.xml", "--json", "scene.xml", says=("the scene", "--json"))
+        self.write_png("a.png", 4, 4, lambda x, y: (9, 9, 9))
+        self.fails(2, "diff", "a.png", "a.png", "-o", "a.png", says=("read", "the difference picture"))
+        self.fails(2, "demo", "image-copy", "a.png", "-o", "a.png", says=("the picture", "the page"))
 
     @unittest.skipIf(os.geteuid() == 0, "root may write anywhere")
     def test_protected_outputs(self):

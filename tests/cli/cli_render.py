@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """h2mc render: its files, signals, and the same image whatever the number of threads."""
 
 import json
 import os
 import pty
 import re
+import resource
 import signal
 import subprocess
 import time
@@ -112,7 +114,7 @@ class Render(_h2mc.Test):
 
     def test_interrupted(self):
         for integrator, number in (("path", signal.SIGINT), ("h2mc", signal.SIGTERM),
-                                   ("bdpt", signal.SIGTERM), ("mmlt", signal.SIGINT)):
+                                   ("bdpt", signal.SIGHUP), ("mmlt", signal.SIGINT)):
             with self.subTest(integrator):
                 process = self.start("-i", _h2mc.quick(integrator), "--stats", "a.json",
                                      stdout=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -130,9 +132,19 @@ class Render(_h2mc.Test):
                 os.remove(self.path("a.exr"))
                 os.remove(self.path("a.json"))
 
+    def test_nohup(self):
+        process = subprocess.Popen(["nohup", _h2mc.BINARY, "render", "scene.xml", "-o", "a.exr", "--time", "2", "-q"],
+                                   cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        _h2mc.wait_for_handler(process)
+        process.send_signal(signal.SIGHUP)
+        self.assertEqual(process.wait(60), 0)
+        self.assertEqual(self.read_exr("a.exr")[0]["interrupted"], 0)
+
     # Minutes of samples that place the chains: these end too, and the image is whole.
     def test_interrupted_before_the_chains_begin(self):
         process = self.start("-i", "mmlt:bootstrapSamples=20000000,directSamples=1", stderr=subprocess.PIPE)
+        _h2mc.wait_for_handler(process)
         time.sleep(2)
         process.send_signal(signal.SIGINT)
         _, messages = process.communicate(timeout=30)
@@ -155,6 +167,7 @@ class Render(_h2mc.Test):
         ours, theirs = pty.openpty()
         environment = dict(os.environ, TERM="xterm")
         process = self.start("-i", "path", stderr=theirs, env=environment)
+        _h2mc.wait_for_handler(process)
         time.sleep(3)
         process.send_signal(signal.SIGINT)
         process.wait(timeout=60)
@@ -168,6 +181,29 @@ class Render(_h2mc.Test):
         os.close(ours)
         self.assertIn(b"\r[", text)
         self.assertRegex(text.decode(), r"samples/s +\d.* left")
+
+
+class FullDisk(_h2mc.Test):
+    def test_the_old_file_stays(self):
+        """No file may grow beyond 1000 bytes, as on a full disk: exit code 3, the old file stays, nothing is left."""
+        self.write("scene.xml", _h2mc.SCENE)
+        for name in ("a.exr", "a.png", "a.hdr"):
+            with self.subTest(name):
+                self.write(name, "old")
+
+                def limit():
+                    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+                    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+
+                result = subprocess.run([_h2mc.BINARY, "render", "scene.xml", "-o", name, "-q", "-s", "1", "-i", "path",
+                                         "--width", "64", "--height", "48"], cwd=self.folder, capture_output=True,
+                                        text=True, check=False, preexec_fn=limit)
+                self.assertEqual(result.returncode, 3, result.stderr)
+                self.assertRegex(result.stderr, f'^h2mc: cannot write "{name}": ')
+                with open(self.path(name), encoding="utf-8") as stream:
+                    self.assertEqual(stream.read(), "old")
+                os.remove(self.path(name))
+                self.assertEqual(self.files(), ["scene.xml"])
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """The project's own scenes: they load, they are complete, and their generators write the committed files."""
 
 import filecmp

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """h2mc stress"""
 
 import re
@@ -86,8 +87,8 @@ class Stress(_h2mc.Test):
         self.fails(2, "stress", "scene.xml", "--replay", "s=0", "--only", "as-is", says="t=")
         self.fails(2, "stress", "scene.xml", "--replay", "s=0 t=2 u=0,0 choice=", "--only",
                    "alpha=1", says="changes nothing")
-        self.write("broken.xml", _h2mc.SCENE.replace('"radius"', '"raduis"'))
-        self.fails(2, "stress", "broken.xml", says='did you mean "radius"')
+        self.write("broken.xml", _h2mc.SCENE.replace('type="sphere"', 'type="spheer"'))
+        self.fails(2, "stress", "broken.xml", says='did you mean "sphere"')
 
     def test_dark(self):
         away = _h2mc.SCENE.replace('<rotate x="1" angle="90"/>', '<rotate x="1" angle="-90"/>')
@@ -99,7 +100,8 @@ class Stress(_h2mc.Test):
         with subprocess.Popen([_h2mc.BINARY, "stress", "scene.xml", "--samples", "100000000",
                                "--json", "a.json"], cwd=self.folder, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-            time.sleep(2)
+            _h2mc.wait_for_handler(process)
+            time.sleep(1)
             process.send_signal(signal.SIGINT)
             _, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, errors)

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """The page of h2mc compare in a browser: headless Chromium and Firefox, driven by Selenium. Skipped without."""
 
 import json

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Derivatives of points on surfaces, and densities as Jacobians.
 #include <gtest/gtest.h>
 
@@ -26,6 +27,8 @@ std::vector<Shape> everyShape() {
   shapes.push_back(disk(a, e, f));
   shapes.push_back(sphere(a, 0.6f));
   shapes.push_back(sphere(Vec3f(0.1f, 0.1f, 0), 4, true));
+  shapes.push_back(cylinder(a, a + e, 0.5f));
+  shapes.push_back(cylinder(a, a + f * 2.0f, 0.7f, true));
   return shapes;
 }
 
@@ -37,7 +40,7 @@ TEST(SurfaceDerivatives, Intersection) {
     const RayTracer alone(std::span<const Shape>(shapes).subspan(i, 1));
     for (int k = 0; k < 5000 && seen[i] < 12; ++k) {
       const Vec3f o = randomPoint(random) * 2.0f, d = randomDirection(random);
-      PrimitiveId id = alone.intersect(o, Vec3f(0), d);
+      PrimitiveId id = alone.intersect({o}, d);
       if (!id.valid()) continue;
       id.shape = i;
       const float cosine = dot(intersectPrimitive<float>(shapes, id, o, d).ng, d);

@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: MIT
 // gradcheck itself: it finds what is broken, in the right place, and nothing else.
-#include "mcmc/gradcheck/gradcheck.h"
+#include "check/gradcheck/gradcheck.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "mcmc/gradcheck/report.h"
-#include "mcmc/integrators.h"
+#include "check/gradcheck/report.h"
+#include "mcmc/render/integrators.h"
 #include "render/path/path_text.h"
 #include "render/path/replay_double.h"
 #include "render/scene/kinds.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The derivatives with respect to the film position against the lens perturbation itself: between two
 // paths that it leads to from one another, the log of target and density must change by what gradient
 // and Hessian say.
@@ -7,8 +8,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "mcmc/integrators.h"
-#include "mcmc/lens_step.h"
+#include "mcmc/mutations/lens_step.h"
+#include "mcmc/render/integrators.h"
 #include "render/path/lens_replay.h"
 #include "render/scene/scene_reader.h"
 #include "sampled_paths.h"
@@ -37,6 +38,7 @@ TEST_P(LensDerivative, PredictsTheStep) {
   const ImportanceMap everywhere;
   const SceneTarget target(scene, kLength, everywhere);
   LensStep::Settings settings;
+  SlotNumbers slots;
   settings.threshold = static_cast<float>(GetParam().threshold);
   ChainState current(kLength), proposed(kLength);
   Random random(3, 1, 4);
@@ -49,7 +51,7 @@ TEST_P(LensDerivative, PredictsTheStep) {
     ++paths;
     Derivative d;
     {
-      const LensStep step(target, settings);
+      const LensStep step(target, settings, slots);
       differentiateLens(scene, path, step.reconnectionVertex(path), d);
     }
     if (!d.finite()) {
@@ -63,14 +65,15 @@ TEST_P(LensDerivative, PredictsTheStep) {
                      {std::abs(d.hessian[0]), std::abs(d.hessian[1]), std::abs(d.hessian[2])});
     settings.hamiltonian.sigma = static_cast<float>(
         std::min({2e-3, 0.1 / (slope + 1e-9), 0.3 / std::sqrt(curvature + 1e-9)}));
-    LensStep step(target, settings);
+    LensStep step(target, settings, slots);
     current.forget();
     current.path = path;
     for (int i = 0; i < kSteps; ++i) {
       proposed.forget();
-      double logRatio = 0;
-      if (!step.propose(current, proposed, context, logRatio)) continue;
-      const double actual = std::log(double(proposed.path.target) / path.target) + logRatio;
+      const Proposal proposal = step.propose(current, proposed, context);
+      if (!proposal.made()) continue;
+      const double actual =
+          std::log(double(proposed.path.target) / path.target) + proposal.logRatio();
       const double x = double(proposed.path.sample.u[0]) - path.sample.u[0],
                    y = double(proposed.path.sample.u[1]) - path.sample.u[1];
       const double linear = d.gradient[0] * x + d.gradient[1] * y;

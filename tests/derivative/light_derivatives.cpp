@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: MIT
 // Lights through the AD type: derivatives against finite differences, densities as Jacobians.
 #include <gtest/gtest.h>
 
 #include "derivative_check.h"
 #include "light_cases.h"
+#include "render/core/index.h"
 #include "render/geometry/ray_tracer.h"
 
 namespace h2mc {
@@ -93,7 +95,7 @@ TEST(LightDerivatives, Hit) {
       const Vec3f o = randomPoint(random) * 2.0f, d = randomDirection(random);
       PrimitiveId id;
       if (c.isArea()) {
-        id = tracer.intersect(o, Vec3f(0), d);
+        id = tracer.intersect({o}, d);
         if (!id.valid() ||
             std::abs(dot(intersectPrimitive<float>(c.shapes, id, o, d).ng, d)) < 0.2f)
           continue;
@@ -155,7 +157,7 @@ TEST(LightDerivatives, EmissionDensityIsTheJacobian) {
     for (int k = 0; k < 200; ++k) {
       const float choice = random.uniform();
       std::array<D, 4> u;
-      for (int i = 0; i < 4; ++i) u[static_cast<std::size_t>(i)] = D::variable(inner(random), i);
+      for (int i = 0; i < 4; ++i) u[at(i)] = D::variable(inner(random), i);
       with(c, [&](const auto& l) {
         const PrimitiveId id = l.choosePrimitive(c.context(), choice);
         const auto r = l.template sampleEmission<D>(c.context(), id, u[0], u[1], u[2], u[3]);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Derivatives with respect to time: of moving surfaces and lights, and of whole paths in a scene in which
 // everything that can moves.
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@
 #include "derivative_check.h"
 #include "geometry_cases.h"
 #include "motion_scenes.h"
+#include "render/core/index.h"
 #include "render/path/bidirectional.h"
 #include "render/path/derivative.h"
 #include "render/path/replay.h"
@@ -210,7 +212,7 @@ TEST_P(MovingPaths, SlowAgreeWithFiniteDifferences) {
       }
       std::array<double, 2 * kMaxLength + 1> u{};
       std::copy_n(path.sample.u.begin(), path.technique.dimension(), u.begin());
-      if (path.moving) u[static_cast<std::size_t>(n) - 1] = path.sample.time;
+      if (path.moving) u[at(n) - 1] = path.sample.time;
       const auto f = [&](const double* x) {
         return replayLogTarget<double>(scene, path, x, path.moving ? x + n - 1 : nullptr);
       };
@@ -223,15 +225,14 @@ TEST_P(MovingPaths, SlowAgreeWithFiniteDifferences) {
         hessianScale = std::max(hessianScale, double(std::abs(d.hessian[k])));
       if (path.moving) timeMatters += std::abs(d.gradient[n - 1]) > 0.01 * gradientScale;
       for (int a = 0, k = 0; a < n; ++a) {
-        const auto& g = fd.gradient[static_cast<std::size_t>(a)];
-        const auto& g2 = wide.gradient[static_cast<std::size_t>(a)];
+        const auto& g = fd.gradient[at(a)];
+        const auto& g2 = wide.gradient[at(a)];
         if (std::max(g.error, std::abs(g.value - g2.value)) <= 1e-3 * gradientScale) {
           ++judged;
           wrong += !(std::abs(d.gradient[a] - g.value) <= 1e-2 * gradientScale + 10 * g.error);
         }
         for (int b = 0; b <= a; ++b, ++k) {
-          const auto entry = static_cast<std::size_t>(a) * static_cast<std::size_t>(n) +
-                             static_cast<std::size_t>(b);
+          const auto entry = at(a) * static_cast<std::size_t>(n) + static_cast<std::size_t>(b);
           const auto& h = fd.hessian[entry];
           const auto& h2 = wide.hessian[entry];
           if (std::max(h.error, std::abs(h.value - h2.value)) <= 1e-2 * hessianScale) {

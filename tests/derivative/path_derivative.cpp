@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The contribution's derivatives against finite differences of the same contribution in double, on
 // paths of every technique; and the frozen topology against what was traced.
 #include <gtest/gtest.h>
@@ -7,8 +8,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "mcmc/gradcheck/gradcheck.h"
-#include "mcmc/integrators.h"
+#include "check/gradcheck/gradcheck.h"
+#include "mcmc/render/integrators.h"
+#include "render/core/index.h"
 #include "render/path/derivative.h"
 #include "render/path/path_text.h"
 #include "render/path/replay.h"
@@ -102,16 +104,16 @@ TEST_P(PathDerivative, LocalFormIsThePlainOne) {
         EXPECT_NEAR(local.value, plain.value, 1e-8);
         const int n = path.dimension();
         const auto scale = [&](int i) {
-          const auto diagonal = static_cast<std::size_t>(ad::triangleIndex(i, i));
-          return std::max({1.0, std::abs(plain.gradient[static_cast<std::size_t>(i)]),
-                           std::sqrt(std::abs(plain.hessian[diagonal]))});
+          const auto diagonal = at(ad::triangleIndex(i, i));
+          return std::max(
+              {1.0, std::abs(plain.gradient[at(i)]), std::sqrt(std::abs(plain.hessian[diagonal]))});
         };
         double error = 0;
         for (int i = 0; i < n; ++i) {
-          const auto g = static_cast<std::size_t>(i);
+          const auto g = at(i);
           error = std::max(error, std::abs(local.gradient[g] - plain.gradient[g]) / scale(i));
           for (int j = 0; j <= i; ++j) {
-            const auto h = static_cast<std::size_t>(ad::triangleIndex(i, j));
+            const auto h = at(ad::triangleIndex(i, j));
             error = std::max(error,
                              std::abs(local.hessian[h] - plain.hessian[h]) / (scale(i) * scale(j)));
           }

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: MIT
 // Derivatives of paths through smooth glass.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdio>
 
-#include "mcmc/gradcheck/form_check.h"
+#include "check/gradcheck/form_check.h"
 #include "render/path/derivative.h"
 #include "render/path/replay_double.h"
 #include "sampled_paths.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The integrators against each other on the project's own scenes.
 #include <algorithm>
 
@@ -46,7 +47,7 @@ TEST_P(OwnScenes, SlowIntegratorsAgree) {
   auto chains = options;
   chains.insert(chains.end(),
                 {{"bootstrapSamples", "150000"}, {"directSamples", "48"}, {"chains", "256"}});
-  for (const char* integrator : {"path", "mmlt", "h2mc"}) {
+  for (const char* integrator : {"path", "mmlt", "h2mc", "lmc", "rjmlt", "mlt"}) {
     const bool path = std::string(integrator) == "path";
     expectAgreement(renderRuns(scene, integrator, path ? options : chains, kRuns,
                                path ? pathSamples(name) : 8, kEdge),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Motion blur: against static images in the mean, and the integrators against each other.
 #include "image_check.h"
 #include "motion_scenes.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The BSDFs' sampling against what they say of it: densities by chi-square, albedos by quadrature.
 // Thresholds: see chi_square.h for the false alarms; means are held to 5 standard errors (a false
 // alarm in 1.7 million) or, where quadrature limits, to what is said beside them.
@@ -162,6 +163,9 @@ TEST(BsdfSampling, LosslessSurfacesReflectEverything) {
   expectOne(conductor(), "conductor none", 1e-6);
   expectOne(dielectric(1.5f), "dielectric", 1e-5);
   expectOne(dielectric(1 / 1.5f), "dielectric inverted", 1e-5);
+  expectOne(thinDielectric(1.5f), "thindielectric", 1e-5);
+  expectOne(diffuseTransmitter(Rgbf(1)), "difftrans", 1e-5);
+  expectOne(roughConductor(facets(kPhong, 0.001f)), "roughconductor phong", 2e-4);
   expectOne(diffuse(Rgbf(1)), "diffuse", 1e-5);
   expectOne(roughConductor(facets(kGgx, 0.001f)), "roughconductor ggx", 2e-4);
   expectOne(roughConductor(facets(kBeckmann, 0.001f)), "roughconductor beckmann", 2e-4);

@@ -1,10 +1,12 @@
+// SPDX-License-Identifier: MIT
 // Chains on a target of which a part depends on time and a part does not: stationarity of every
 // mutation across the border between the two.
 #include <gtest/gtest.h>
 
 #include <memory>
 
-#include "ad/dual2.h"
+#include "ad/dual.h"
+#include "render/core/index.h"
 #include "toy_kernels.h"
 
 namespace h2mc::test {
@@ -63,6 +65,12 @@ class HalfMovingTarget final : public Target {
     return path.target > 0;
   }
 
+  void differentiateOnce(const Path& path, Gradient& result) const override {
+    Derivative derivative;
+    differentiate(path, derivative);
+    result.dimension = derivative.dimension;
+    std::copy_n(derivative.gradient, derivative.dimension, result.gradient);
+  }
   void differentiate(const Path& path, Derivative& result) const override {
     if (path.technique.dimension() == 2)
       derive<2>(path, result);
@@ -76,7 +84,7 @@ class HalfMovingTarget final : public Target {
   static void derive(const Path& path, Derivative& result) {
     using D = ad::Dual2<float, N + 1>;
     D u[4];  // as many as any technique has
-    for (int i = 0; i < N; ++i) u[i] = D::variable(path.sample.u[static_cast<std::size_t>(i)], i);
+    for (int i = 0; i < N; ++i) u[i] = D::variable(path.sample.u[at(i)], i);
     const D time = D::variable(path.sample.time, N);
     const D f = ad::log(density(path.technique, path.moving, u, time));
     result.dimension = path.dimension();
@@ -96,9 +104,8 @@ int bin(float x) { return std::min(static_cast<int>(x * kBins), kBins - 1); }
 struct Histogram {
   std::vector<double> cells = std::vector<double>(2 * kBins * kBins * kBins, 0);
 
-  double& at(std::size_t technique, float u0, float u1, float time) {
-    return cells[((technique * kBins + static_cast<std::size_t>(bin(u0))) * kBins +
-                  static_cast<std::size_t>(bin(u1))) *
+  double& cell(std::size_t technique, float u0, float u1, float time) {
+    return cells[((technique * kBins + at(bin(u0))) * kBins + static_cast<std::size_t>(bin(u1))) *
                      kBins +
                  static_cast<std::size_t>(bin(time))];
   }
@@ -123,7 +130,7 @@ Histogram expectedShares() {
           const double share = f * double(HalfMovingTarget::brightness(technique)) /
                                double(HalfMovingTarget::brightness({0, 2})) *
                                (t == 1 ? even * even : 1);
-          h.at(t, u[0], u[1], time) += share;
+          h.cell(t, u[0], u[1], time) += share;
           total += share;
         }
       }
@@ -145,7 +152,7 @@ TEST_P(ChainOnHalfMoving, KeepsTheDistribution) {
   constexpr int kChains = 60000, kSteps = 16;
   static const Histogram expected = expectedShares();
   Histogram seen;
-  ChainFilms films(FilmSettings{4, 4, {}});
+  ChainFilms films;
   ChainStatistics statistics(kernels.kinds(), 2);
   MutationContext context;
   Random random(17, 0, 0);
@@ -165,9 +172,10 @@ TEST_P(ChainOnHalfMoving, KeepsTheDistribution) {
       chain.step(kernels, films, statistics, context);
       crossings += before != chain.path().moving;
     }
+    films.clear();
     const Path& path = chain.path();
-    seen.at(path.technique == HalfMovingTarget::kTechniques[0] ? 0 : 1, path.sample.u[0],
-            path.sample.u[1], path.sample.time) += 1;
+    seen.cell(path.technique == HalfMovingTarget::kTechniques[0] ? 0 : 1, path.sample.u[0],
+              path.sample.u[1], path.sample.time) += 1;
   }
 
   // Rare cells together; z-score by Wilson and Hilferty.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Chains on a target whose distribution is known: stationarity of every mutation, alone with large
 // steps and mixed, across techniques, at the borders of the unit cube and where coordinates wrap.
 #include <gtest/gtest.h>
@@ -6,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "render/core/index.h"
 #include "toy_kernels.h"
 #include "toy_target.h"
 
@@ -24,7 +26,7 @@ std::vector<double> masses(int count, const std::function<double(float)>& f) {
   std::vector<double> mass(static_cast<std::size_t>(count), 0);
   for (int i = 0; i < kFine; ++i) {
     const float u = (static_cast<float>(i) + 0.5f) / kFine;
-    mass[static_cast<std::size_t>(bin(u, count))] += f(u) / kFine;
+    mass[at(bin(u, count))] += f(u) / kFine;
   }
   return mass;
 }
@@ -52,7 +54,7 @@ struct Histograms {
       for (int j = 0; j < kFine; ++j) {
         const float u0 = (static_cast<float>(i) + 0.5f) / kFine;
         const float u1 = (static_cast<float>(j) + 0.5f) / kFine;
-        plane[static_cast<std::size_t>(bin(u0, kPlane) * kPlane + bin(u1, kPlane))] +=
+        plane[at(bin(u0, kPlane) * kPlane + bin(u1, kPlane))] +=
             ToyTarget::plane(u0, u1) / (double(kFine) * kFine);
       }
     const auto even = masses(kExtra, [](float u) { return ToyTarget::even(u); });
@@ -85,11 +87,11 @@ struct Histograms {
     tables[0][t * kPlane * kPlane +
               static_cast<std::size_t>(bin(u[0], kPlane) * kPlane + bin(u[1], kPlane))] += 1;
     if (path.technique.dimension() == 4) {
-      tables[1 + 3 * t][static_cast<std::size_t>(bin(u[2], kExtra))] += 1;
-      tables[2 + 3 * t][static_cast<std::size_t>(bin(u[3], kExtra))] += 1;
+      tables[1 + 3 * t][at(bin(u[2], kExtra))] += 1;
+      tables[2 + 3 * t][at(bin(u[3], kExtra))] += 1;
     }
     if (path.technique.choices() > 0)
-      tables[3 + 3 * t][static_cast<std::size_t>(bin(path.sample.choice[0], kExtra))] += 1;
+      tables[3 + 3 * t][at(bin(path.sample.choice[0], kExtra))] += 1;
   }
 };
 
@@ -108,7 +110,7 @@ TEST_P(ChainOnToy, KeepsTheDistribution) {
   constexpr int kChains = 60000, kSteps = 25;
   const Histograms expected = Histograms::expected();
   Histograms seen;
-  ChainFilms films(FilmSettings{4, 4, {}});
+  ChainFilms films;
   ChainStatistics statistics(kernels.kinds(), 2);
   MutationContext context;
   Random random(7, 0, 0);
@@ -123,6 +125,7 @@ TEST_P(ChainOnToy, KeepsTheDistribution) {
     } while (start.target < 20 * random.uniform());
     Chain chain(target, start, Random(11, static_cast<std::uint64_t>(c), 0));
     for (int i = 0; i < kSteps; ++i) chain.step(kernels, films, statistics, context);
+    films.clear();
     seen.count(chain.path());
   }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Shapes and views that degenerate.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Materials at the ends of their parameters.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers at the ends of float's range: sizes, places, radiances, lengths, primary coordinates.
 #include <gtest/gtest.h>
 

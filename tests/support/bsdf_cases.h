@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // BSDFs that the tests try everything on.
 #pragma once
 
@@ -20,6 +21,7 @@ inline Microfacet facets(FacetDistribution distribution, float alpha) {
 }
 constexpr auto kGgx = FacetDistribution::kGgx;
 constexpr auto kBeckmann = FacetDistribution::kBeckmann;
+constexpr auto kPhong = FacetDistribution::kPhong;
 
 inline TexturePtr gray(float x) { return constantTexture(Rgbf(x)); }
 
@@ -82,6 +84,43 @@ inline RoughPlastic roughPlastic(Microfacet f, const Rgbf& color, float eta, boo
   return b;
 }
 
+// Two by two texels, black and white turned a bit to the middle: its derivatives are not zero.
+inline TexturePtr picture(float low, float high) {
+  auto image = std::make_shared<Image>(2, 2);
+  image->pixels = {Rgbf(low), Rgbf(high), Rgbf(high), Rgbf(low)};
+  BitmapTexture t;
+  t.image = image;
+  return std::make_shared<const Texture>(t);
+}
+template <class B>
+B textured(B b, float low, float high) {
+  b.roughness = picture(low, high);
+  return b;
+}
+inline FurtherBsdf diffuseTransmitter(const Rgbf& color) {
+  DiffuseTransmitter b;
+  b.transmittance = constantTexture(color);
+  return {b};
+}
+inline FurtherBsdf roughDiffuse(const Rgbf& color, float sigma, bool fast) {
+  RoughDiffuse b;
+  b.reflectance = constantTexture(color);
+  b.sigma = sigma;
+  b.fast = fast;
+  return {b};
+}
+inline FurtherBsdf ward(WardVariant variant, float alphaU, float alphaV, float kd, float ks) {
+  Ward b;
+  b.variant = variant;
+  b.alphaU = alphaU;
+  b.alphaV = alphaV;
+  b.diffuse = gray(kd);
+  b.specular = gray(ks);
+  b.specularWeight = ks / (kd + ks);
+  return {b};
+}
+inline FurtherBsdf thinDielectric(float eta) { return {interface(ThinDielectric{}, eta)}; }
+
 inline Material material(int front, int back = -1, bool twosided = false,
                          TexturePtr opacity = nullptr) {
   Material m;
@@ -114,6 +153,25 @@ inline const std::vector<BsdfCase>& glossyCases() {
       {"roughplastic ggx 0.15", roughPlastic(facets(kGgx, 0.15f), {0.6f, 0.3f, 0.1f}, 1.5f, true)},
       {"roughplastic beckmann 0.3",
        roughPlastic(facets(kBeckmann, 0.3f), {0.6f, 0.3f, 0.1f}, 1.49f, false)},
+      {"roughconductor phong 0.3", roughConductor(facets(kPhong, 0.3f), gold())},
+      {"roughconductor phong 0.05", roughConductor(facets(kPhong, 0.05f), gold())},
+      {"roughdielectric phong 0.25", roughDielectric(facets(kPhong, 0.25f), 1.5f), true},
+      {"roughplastic phong 0.2",
+       roughPlastic(facets(kPhong, 0.2f), {0.6f, 0.3f, 0.1f}, 1.5f, true)},
+      {"roughconductor ggx textured",
+       textured(roughConductor(facets(kGgx, 0.2f), gold()), 0.15f, 0.45f)},
+      {"roughconductor beckmann textured",
+       textured(roughConductor(facets(kBeckmann, 0.2f), gold()), 0.15f, 0.45f)},
+      {"roughconductor phong textured",
+       textured(roughConductor(facets(kPhong, 0.2f), gold()), 0.15f, 0.45f)},
+      {"roughdielectric ggx textured",
+       textured(roughDielectric(facets(kGgx, 0.2f), 1.5f), 0.15f, 0.45f), true},
+      {"difftrans", diffuseTransmitter({0.6f, 0.5f, 0.2f}), true},
+      {"roughdiffuse", roughDiffuse({0.2f, 0.5f, 0.8f}, 0.35f, false)},
+      {"roughdiffuse fast", roughDiffuse({0.2f, 0.5f, 0.8f}, 0.35f, true)},
+      {"ward balanced", ward(WardVariant::kBalanced, 0.1f, 0.3f, 0.4f, 0.4f)},
+      {"ward", ward(WardVariant::kWard, 0.3f, 0.15f, 0.5f, 0.2f)},
+      {"ward-duer", ward(WardVariant::kDuer, 0.2f, 0.2f, 0.5f, 0.1f)},
   };
   return cases;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Parameters for making plugins without a scene file.
 #pragma once
 
@@ -39,6 +40,7 @@ class FakeProperties : public Properties {
   TexturePtr texture(std::string_view name) const override {
     if (!given(name)) return constantTexture(Rgbf(std::stof(fallback(name))));
     if (const auto* t = std::get_if<TexturePtr>(&at(name))) return *t;
+    if (const auto* number = std::get_if<float>(&at(name))) return constantTexture(Rgbf(*number));
     return constantTexture(std::get<Rgbf>(at(name)));
   }
   Vec3f vector(std::string_view name) const override { return color(name); }

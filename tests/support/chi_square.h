@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Does a sampling routine draw directions with the density it says? Pearson's chi-square test over a
 // grid of cells on the sphere, after pbrt-v4's and Mitsuba's tests of the same.
 //
@@ -22,6 +23,7 @@
 #include <vector>
 
 #include "render/core/frame.h"
+#include "render/core/index.h"
 
 namespace h2mc::test {
 
@@ -130,7 +132,7 @@ class DirectionHistogram {
     const double phi = std::atan2(w.y, w.x) / (2 * std::numbers::pi);
     const int ring = static_cast<int>(rings_ * std::sqrt(theta / std::numbers::pi));
     const int sector = static_cast<int>((phi < 0 ? phi + 1 : phi) * sectors_);
-    ++counts_[static_cast<std::size_t>(std::min(ring, rings_ - 1)) * sectors_ +
+    ++counts_[at(std::min(ring, rings_ - 1)) * sectors_ +
               static_cast<std::size_t>(std::min(sector, sectors_ - 1))];
     ++draws_;
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Holds the derivatives of templated functions against finite differences.
 #pragma once
 
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "ad/finite_difference.h"
+#include "render/core/index.h"
 #include "render/geometry/surface_point.h"
 
 namespace h2mc::test {
@@ -66,11 +68,11 @@ double expectDerivatives(const F& f, const std::array<double, N>& x, double step
     EXPECT_TRUE(isFinite(dual[k])) << "output " << k;
     EXPECT_TRUE(isFinite(coarse[k])) << "output " << k << " in float";
     EXPECT_NEAR(dual[k].v, plain[k], 1e-12 * (1 + std::abs(plain[k]))) << "output " << k;
-    std::array<double, N> at;
+    std::array<double, N> moved;
     const auto differences = ad::finiteDifferences<double>(
         [&](const double* p) {
-          std::copy(p, p + N, at.begin());
-          return f.template operator()<double>(at)[k];
+          std::copy(p, p + N, moved.begin());
+          return f.template operator()<double>(moved)[k];
         },
         x.data(), N, step, 8);
     double size1 = std::abs(plain[k]), size2 = std::abs(plain[k]);
@@ -89,11 +91,10 @@ double expectDerivatives(const F& f, const std::array<double, N>& x, double step
     };
     for (int i = 0; i < N; ++i) {
       const std::string name = "output " + std::to_string(k) + " by " + std::to_string(i);
-      compare(dual[k].gradient(i), differences.gradient[static_cast<std::size_t>(i)],
-              coarse[k].gradient(i), size1, name);
+      compare(dual[k].gradient(i), differences.gradient[at(i)], coarse[k].gradient(i), size1, name);
       for (int j = 0; j <= i; ++j)
-        compare(dual[k].hessian(i, j), differences.hessian[static_cast<std::size_t>(i * N + j)],
-                coarse[k].hessian(i, j), size2, name + " and " + std::to_string(j));
+        compare(dual[k].hessian(i, j), differences.hessian[at(i * N + j)], coarse[k].hessian(i, j),
+                size2, name + " and " + std::to_string(j));
     }
   }
   return all ? static_cast<double>(compared) / all : 1;

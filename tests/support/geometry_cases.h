@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Shapes for tests of geometry and lights.
 #pragma once
 
@@ -90,6 +91,11 @@ inline Shape sphere(const Vec3f& center, float radius, bool flip = false) {
   return {"sphere", Sphere{center, radius, flip, tilt()}};
 }
 
+inline Shape cylinder(const Vec3f& start, const Vec3f& end, float radius, bool flip = false) {
+  const Frame<float> across = Frame<float>::fromNormal(glm::normalize(end - start));
+  return {"cylinder", Cylinder{start, end, radius, across.s, flip}};
+}
+
 inline Shape disk(const Vec3f& center, const Vec3f& axisX, const Vec3f& axisY) {
   return {"disk", Disk{center, axisX, axisY, glm::normalize(glm::cross(axisX, axisY))}};
 }
@@ -108,6 +114,11 @@ inline Shape moved(Shape shape, const glm::mat3& m, float scale, const Vec3f& by
   } else if (auto* s = std::get_if<Sphere>(&shape.geometry)) {
     s->center = m * s->center * scale + by;
     s->radius *= scale;
+  } else if (auto* c = std::get_if<Cylinder>(&shape.geometry)) {
+    c->start = m * c->start * scale + by;
+    c->end = m * c->end * scale + by;
+    c->axisX = m * c->axisX;
+    c->radius *= scale;
   } else {
     auto& d = std::get<Disk>(shape.geometry);
     d.center = m * d.center * scale + by;

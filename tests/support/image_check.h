@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Renderings against references, with error bars on both sides.
 #pragma once
 
@@ -9,7 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "mcmc/integrators.h"
+#include "mcmc/render/integrators.h"
+#include "render/core/index.h"
 #include "render/image/image_io.h"
 #include "render/scene/scene_reader.h"
 
@@ -54,7 +56,7 @@ inline std::vector<double> blockMeans(const Image& image, int edge, bool squared
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
       const double value = luminance(image.at(x, y));
-      const auto block = static_cast<std::size_t>((y / edge) * columns + x / edge);
+      const auto block = at((y / edge) * columns + x / edge);
       for (const std::size_t k : {block, sums.size() - 1}) {
         sums[k] += squared ? value * value : value;
         counts[k] += 1;
@@ -83,7 +85,7 @@ inline Runs renderRuns(const Scene& scene, const std::string& integrator,
     if (factory.plugin.name != integrator) continue;
     OptionSet set(factory.plugin);
     for (const auto& [name, text] : scene.options)
-      if (name == "maxDepth") set.set(name, text);
+      if (name == "maxDepth" || name == "minDepth") set.set(name, text);
     for (const auto& [name, text] : options) {
       const bool scaled = name == "bootstrapSamples" || name == "directSamples";
       set.set(name, scaled ? std::to_string(std::llround(std::stod(text) * testEffort())) : text);

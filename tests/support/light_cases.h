@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lights of every kind, each with the shape it stands on, for tests.
 #pragma once
 
@@ -91,6 +92,14 @@ inline std::vector<LightCase> deltaCases() {
       {"sharp spot", SpotLight(Vec3f(0.5f, 1.5f, -0.5f), axis, Rgbf(3, 2, 1), 30, 30), {}});
   cases.push_back(
       {"wide spot", SpotLight(Vec3f(0.5f, 1.5f, -0.5f), axis, Rgbf(3, 2, 1), 170, 0), {}});
+  SpotLight projector(Vec3f(0.5f, 1.5f, -0.5f), axis, Rgbf(3, 2, 1), 50, 40);
+  const Frame<float> across = Frame<float>::fromNormal(axis);
+  auto slide = std::make_shared<Image>(3, 2);
+  slide->pixels = {Rgbf(1, 0.2f, 0.5f), Rgbf(0.3f), Rgbf(0.9f), Rgbf(0.1f), Rgbf(1), Rgbf(0.4f)};
+  BitmapTexture picture;
+  picture.image = slide;
+  projector.project(std::make_shared<const Texture>(picture), across.s, across.t);
+  cases.push_back({"spot with a texture", projector, {}});
   DirectionalLight directional;
   directional.direction = axis;
   directional.irradiance = Rgbf(1, 2, 0.5f);

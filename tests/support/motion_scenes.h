@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Scenes in which things move, without files.
 #pragma once
 
@@ -32,14 +33,18 @@ inline std::string halfMovingScene(double open, double close, bool camera, int w
          std::to_string(width) + "\"/><integer name=\"height\" value=\"" + std::to_string(height) +
          "\"/><rfilter type=\"box\"/></film></sensor>" + R"(
 <shape type="rectangle" id="floor"><transform name="toWorld"><scale value="6"/><rotate x="1" angle="-90"/></transform>
-  <bsdf type="roughplastic"><rgb name="diffuseReflectance" value="0.4, 0.4, 0.35"/><float name="alpha" value="0.2"/></bsdf></shape>
-<shape type="cube" id="box"><transform name="toWorld"><scale value="0.6"/><translate x="-2" y="0.6" z="-0.5"/></transform>
+  <bsdf type="roughplastic"><rgb name="diffuseReflectance" value="0.4, 0.4, 0.35"/>
+    <float name="alpha" value="0.2"/></bsdf></shape>
+<shape type="cube" id="box">
+  <transform name="toWorld"><scale value="0.6"/><translate x="-2" y="0.6" z="-0.5"/></transform>
   <bsdf type="diffuse"><rgb name="reflectance" value="0.2, 0.5, 0.3"/></bsdf></shape>
-<shape type="rectangle" id="still lamp"><transform name="toWorld"><scale value="0.5"/><rotate x="1" angle="90"/><translate x="-2" y="3.5" z="1"/></transform>
+<shape type="rectangle" id="still lamp"><transform name="toWorld">
+  <scale value="0.5"/><rotate x="1" angle="90"/><translate x="-2" y="3.5" z="1"/></transform>
   <emitter type="area"><rgb name="radiance" value="14, 13, 10"/></emitter></shape>
 <shape type="cube" id="turning cube"><animation name="toWorld">
   <transform time="0"><scale x="0.4" y="0.7" z="0.4"/><translate x="1.2" y="0.8"/></transform>
-  <transform time="1"><scale x="0.4" y="0.7" z="0.4"/><rotate y="1" x="0.3" angle="80"/><translate x="1.5" y="0.9" z="0.2"/></transform></animation>
+  <transform time="1"><scale x="0.4" y="0.7" z="0.4"/><rotate y="1" x="0.3" angle="80"/>
+    <translate x="1.5" y="0.9" z="0.2"/></transform></animation>
   <bsdf type="roughconductor"><string name="material" value="Au"/><float name="alpha" value="0.25"/></bsdf></shape>
 <shape type="sphere" id="rolling sphere"><float name="radius" value="0.4"/><animation name="toWorld">
   <transform time="0"><translate x="0" y="0.4" z="1"/></transform>
@@ -48,11 +53,14 @@ inline std::string halfMovingScene(double open, double close, bool camera, int w
   <bsdf type="plastic"><rgb name="diffuseReflectance" value="0.6, 0.2, 0.1"/></bsdf></shape>
 <shape type="disk" id="tilting disk"><animation name="toWorld">
   <transform time="0"><scale x="0.5" y="0.7" z="1"/><translate x="2.2" y="1" z="-1.4"/></transform>
-  <transform time="1"><scale x="0.6" y="0.7" z="1"/><rotate y="1" angle="40"/><translate x="2" y="1.4" z="-1.2"/></transform></animation>
-  <bsdf type="twosided"><bsdf type="phong"><rgb name="specularReflectance" value="0.5"/><rgb name="diffuseReflectance" value="0.3"/><float name="exponent" value="20"/></bsdf></bsdf></shape>
+  <transform time="1"><scale x="0.6" y="0.7" z="1"/><rotate y="1" angle="40"/>
+    <translate x="2" y="1.4" z="-1.2"/></transform></animation>
+  <bsdf type="twosided"><bsdf type="phong"><rgb name="specularReflectance" value="0.5"/>
+    <rgb name="diffuseReflectance" value="0.3"/><float name="exponent" value="20"/></bsdf></bsdf></shape>
 <shape type="rectangle" id="moving lamp"><animation name="toWorld">
   <transform time="0"><scale value="0.4"/><rotate x="1" angle="90"/><translate x="1" y="3" z="0.5"/></transform>
-  <transform time="1"><scale x="0.7" y="0.4" z="0.5"/><rotate x="1" angle="90"/><rotate z="1" angle="30"/><translate x="2" y="2.7" z="1"/></transform></animation>
+  <transform time="1"><scale x="0.7" y="0.4" z="0.5"/><rotate x="1" angle="90"/>
+    <rotate z="1" angle="30"/><translate x="2" y="2.7" z="1"/></transform></animation>
   <emitter type="area"><rgb name="radiance" value="10, 11, 14"/></emitter></shape>
 </scene>)";
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Paths of a scene's every technique, for tests and benchmarks.
 #pragma once
 

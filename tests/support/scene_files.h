@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Scene files written by the tests themselves.
 #pragma once
 
@@ -28,6 +29,18 @@ inline std::span<const IntegratorPlugin> testIntegrators() {
                                               {"mmlt", "", kMetropolis},
                                               {"h2mc", "", kMetropolis}};
   return kPlugins;
+}
+
+// A scene as a file of a version in which leftovers are errors.
+inline std::string modern(std::string scene) {
+  scene.replace(scene.find("0.6.0"), 5, "3.0.0");
+  return scene;
+}
+
+inline ReadOptions strictness(Strictness how) {
+  ReadOptions options;
+  options.strictness = how;
+  return options;
 }
 
 // A folder of its own, removed at the end.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Scenes at the edge of what numbers can hold, looked at as `h2mc stress` looks at a user's.
 #pragma once
 
@@ -6,8 +7,8 @@
 #include <cstdio>
 #include <string>
 
+#include "check/stress/stress.h"
 #include "image_check.h"
-#include "mcmc/stress/stress.h"
 #include "render/scene/document_edit.h"
 #include "scene_files.h"
 

@@ -1,10 +1,14 @@
+// SPDX-License-Identifier: MIT
 // The mixtures of kernels that the tests on targets of known distribution run.
 #pragma once
 
 #include <span>
 
-#include "mcmc/chain.h"
-#include "mcmc/small_step.h"
+#include "mcmc/chain/chain.h"
+#include "mcmc/mutations/hamiltonian_step.h"
+#include "mcmc/mutations/isotropic_step.h"
+#include "mcmc/mutations/multiplexed_large_step.h"
+#include "render/core/index.h"
 
 namespace h2mc::test {
 
@@ -14,16 +18,16 @@ struct ToyMixture {
   StepShape shape;
   float sigma;
   bool learned =
-      false;  // the isotropic and the Hamiltonian share depend on the level of the target
+      false;  // the isotropic and the Hamiltonian share depend on the octave of the target
 };
 
-// Has shares learned that leap from each level of the target to the next.
+// Has shares learned that leap from each octave of the target to the next.
 inline void learnLeaps(KernelMixture& kernels) {
   ChainStatistics statistics(kernels.kinds(), 2);
-  for (int level = -kHighestLevel; level <= kHighestLevel; ++level)
+  for (int octave = -kHighestOctave; octave <= kHighestOctave; ++octave)
     for (std::size_t kind = 1; kind < 3; ++kind) {
-      const bool good = (level + static_cast<int>(kind)) % 2 == 0;
-      statistics.levels[kind][KernelMixture::at(level)] = {1000, good ? 600. : 200.};
+      const bool good = (octave + static_cast<int>(kind)) % 2 == 0;
+      statistics.octaves[kind][KernelMixture::row(octave)] = {1000, good ? 600. : 200.};
     }
   kernels.learn(statistics);
 }
@@ -32,8 +36,7 @@ inline void learnLeaps(KernelMixture& kernels) {
 inline TechniqueDistribution evenly(std::span<const Technique> techniques) {
   TechniqueDistribution distribution(1, 2);
   std::vector<double> weights(static_cast<std::size_t>(distribution.size()), 0);
-  for (const Technique& t : techniques)
-    weights[static_cast<std::size_t>(distribution.index(t))] = 1;
+  for (const Technique& t : techniques) weights[at(distribution.index(t))] = 1;
   distribution.setWeights(weights, std::vector<bool>(weights.size(), true));
   return distribution;
 }
@@ -41,17 +44,19 @@ inline TechniqueDistribution evenly(std::span<const Technique> techniques) {
 // Keeps references.
 inline KernelMixture toyKernels(const Target& target, const TechniqueDistribution& techniques,
                                 const ToyMixture& mixture) {
+  SlotNumbers slots;
   KernelMixture kernels;
   kernels.large = std::make_unique<MultiplexedLargeStep>(target, techniques);
   kernels.largeProbability = mixture.large;
   kernels.small.push_back({std::make_unique<IsotropicStep>(target, mixture.shape, mixture.sigma),
-                           mixture.isotropic, mixture.isotropic});
+                           mixture.isotropic,
+                           {}});
   HamiltonianSettings settings;
   settings.sigma = mixture.sigma;
-  kernels.small.push_back({std::make_unique<HamiltonianStep>(target, settings), mixture.hamiltonian,
-                           mixture.hamiltonian});
+  kernels.small.push_back(
+      {std::make_unique<HamiltonianStep>(target, settings, slots), mixture.hamiltonian, {}});
   if (mixture.learned) {
-    kernels.brightness = 1;
+    kernels.meanTarget = 1;
     for (KernelMixture::Small& s : kernels.small) s.cost = 1;
     learnLeaps(kernels);
   }

@@ -1,10 +1,13 @@
+// SPDX-License-Identifier: MIT
 // A target with a known distribution over several techniques: for tests of chains.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
-#include "ad/dual2.h"
-#include "mcmc/target.h"
+#include "ad/dual.h"
+#include "mcmc/targets/target.h"
+#include "render/core/index.h"
 
 namespace h2mc::test {
 
@@ -63,6 +66,13 @@ class ToyTarget final : public Target {
     return path.target > 0;
   }
 
+  void differentiateOnce(const Path& path, Gradient& result) const override {
+    Derivative derivative;
+    differentiate(path, derivative);
+    result.dimension = derivative.dimension;
+    result.logTarget = derivative.logTarget;
+    std::copy_n(derivative.gradient, derivative.dimension, result.gradient);
+  }
   void differentiate(const Path& path, Derivative& result) const override {
     if (path.technique.dimension() == 2)
       derive<2>(path, result);
@@ -75,7 +85,7 @@ class ToyTarget final : public Target {
   static void derive(const Path& path, Derivative& result) {
     using D = ad::Dual2<float, N>;
     D u[N];
-    for (int i = 0; i < N; ++i) u[i] = D::variable(path.sample.u[static_cast<std::size_t>(i)], i);
+    for (int i = 0; i < N; ++i) u[i] = D::variable(path.sample.u[at(i)], i);
     const D f = ad::log(density(path.technique, N, u, path.sample.choice.data()));
     result.dimension = N;
     result.logTarget = f.v;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The judge of derivatives, on functions whose derivatives are known: right, wrong, kinked, noisy.
 #include <gtest/gtest.h>
 
@@ -5,6 +6,7 @@
 #include <cstring>
 
 #include "ad/derivative_check.h"
+#include "render/core/index.h"
 
 namespace h2mc::ad {
 namespace {
@@ -29,9 +31,8 @@ DerivativeValues exactSmooth() {
   d.gradient = {std::cos(a) * e + c * c, std::sin(a) * e / 2 + 1, 2 * a * c};
   d.hessian = {-std::sin(a) * e, std::cos(a) * e / 2, std::sin(a) * e / 4, 2 * c, 0, 2 * a};
   for (int i = 0; i < 3; ++i) {
-    d.gradient[static_cast<std::size_t>(i)] /= kLength[i];
-    for (int j = 0; j <= i; ++j)
-      d.hessian[static_cast<std::size_t>(triangleIndex(i, j))] /= kLength[i] * kLength[j];
+    d.gradient[at(i)] /= kLength[i];
+    for (int j = 0; j <= i; ++j) d.hessian[at(triangleIndex(i, j))] /= kLength[i] * kLength[j];
   }
   return d;
 }
@@ -140,7 +141,7 @@ TEST(DerivativeCheck, NeighboursOfKinksAreNotJudged) {
     const DerivativeCheck c = checked(kinks);
     for (int k = 2; k < 2 + kinks; ++k)
       for (const int i : {0, 1})
-        EXPECT_EQ(c.hessian[static_cast<std::size_t>(triangleIndex(k, i))].verdict, Verdict::kKink);
+        EXPECT_EQ(c.hessian[at(triangleIndex(k, i))].verdict, Verdict::kKink);
     // Beside it two are in order, and two for each kink are not.
     EXPECT_EQ(c.hessian[1].verdict, kinks == 1 ? Verdict::kWrong : Verdict::kKink);
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The eigensolver: residual, orthogonality and known eigenvalues, on matrices that are hard.
 
 #include <gtest/gtest.h>

@@ -1,11 +1,12 @@
-#include "mcmc/bootstrap.h"
+// SPDX-License-Identifier: MIT
+#include "mcmc/populations/bootstrap.h"
 
 #include <gtest/gtest.h>
 
 #include <map>
 
 #include "image_check.h"
-#include "mcmc/integrator_choice.h"
+#include "mcmc/render/integrator_choice.h"
 
 namespace h2mc {
 namespace {

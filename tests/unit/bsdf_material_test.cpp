@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Materials: sides, opacity, and the plugins that make BSDFs.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the BSDFs promise, pointwise: reciprocity, consistent densities, exact inverses, delta lobes,
 // and finite numbers for any unit vectors.
 #include <gtest/gtest.h>

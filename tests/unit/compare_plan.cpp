@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a comparison makes of its command line, of external images and of pixels for the page.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Intervals, tests, fits and ranks of a comparison, against tables and closed forms.
 #include <gtest/gtest.h>
 

@@ -1,11 +1,12 @@
-#include "mcmc/direct_lighting.h"
+// SPDX-License-Identifier: MIT
+#include "mcmc/render/direct_lighting.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "image_check.h"
-#include "mcmc/integrator_choice.h"
+#include "mcmc/render/integrator_choice.h"
 
 namespace h2mc {
 namespace {
@@ -37,21 +38,21 @@ TEST(Noise, VarianceIsThatOfOneSample) {
   for (const double value : {1., 100.}) expected += 0.5 * squared(0.3 * value / (value + floor));
   for (const auto& [na, nb] : {std::pair{4., 4.}, std::pair{100., 25.}}) {
     const TwoEstimates estimates = noisy(mean, 0.3f, na, nb);
-    EXPECT_NEAR(varianceOfOneSample(estimates, relativeWeights(mean, black, 1)), expected,
+    EXPECT_NEAR(varianceOfOneSample(estimates, relativeWeights(mean, black, 1, 1)), expected,
                 0.05 * expected);
   }
-  EXPECT_EQ(varianceOfOneSample({mean, {}, 4, 0}, relativeWeights(mean, black, 1)), 0);
+  EXPECT_EQ(varianceOfOneSample({mean, {}, 4, 0}, relativeWeights(mean, black, 1, 1)), 0);
 }
 
 TEST(Noise, NoisyPartCountsByCells) {
   const Image mean = stripes(8, 6), black(8, 6);
   const double floor = 0.1 * 50.5;
-  const std::vector<double> sharp = relativeWeights(mean, black, 2);
+  const std::vector<double> sharp = relativeWeights(mean, black, 2, 2);
   EXPECT_NEAR(sharp[0], 1 / squared(1 + floor), 1e-6);
   EXPECT_NEAR(sharp[1], 1 / squared(100 + floor), 1e-8);
-  for (const double weight : relativeWeights(black, mean, 2))
+  for (const double weight : relativeWeights(black, mean, 2, 2))
     EXPECT_NEAR(weight, 1 / squared(50.5 + floor), 1e-8);
-  for (const double weight : relativeWeights(black, black, 3)) EXPECT_EQ(weight, 0);
+  for (const double weight : relativeWeights(black, black, 3, 3)) EXPECT_EQ(weight, 0);
 }
 
 TEST(Noise, MeanIsThatOfAllSamples) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The film: filters, their normalisation, accumulation.
 #include "render/image/film.h"
 
@@ -147,19 +148,12 @@ TEST(Film, OfOnePixel) {
   }
 }
 
-TEST(Film, MergesAndClears) {
-  Film a(settings(3, 3, filter(Filter::Kind::kGaussian, 2)));
-  Film b = a, both = a;
-  a.splat(0.3f, 0.7f, Rgbf(1, 2, 3));
-  both.splat(0.3f, 0.7f, Rgbf(1, 2, 3));
-  b.splat(0.9f, 0.1f, Rgbf(4, 5, 6));
-  both.splat(0.9f, 0.1f, Rgbf(4, 5, 6));
-  a.merge(b);
-  const Image merged = a.develop(1), expected = both.develop(1);
-  for (std::size_t i = 0; i < merged.pixels.size(); ++i)
-    EXPECT_FLOAT_EQ(merged.pixels[i].y, expected.pixels[i].y);
-  a.clear();
-  for (const Rgbf& p : a.develop(1).pixels) EXPECT_EQ(p, Rgbf(0));
+TEST(Film, Clears) {
+  Film film(settings(3, 3, filter(Filter::Kind::kGaussian, 2)));
+  film.splat(0.3f, 0.7f, Rgbf(1, 2, 3));
+  EXPECT_GT(film.develop(1).pixels[6].y, 0);
+  film.clear();
+  for (const Rgbf& p : film.develop(1).pixels) EXPECT_EQ(p, Rgbf(0));
 }
 
 TEST(Film, ManySamplesStayAccurate) {

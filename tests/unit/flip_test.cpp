@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // FLIP and HDR-FLIP: what they must give on pictures for which it is known.
 #include "render/image/flip.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Embree and the ray's offset, against brute force in double and against what must be so.
 #include <gtest/gtest.h>
 
@@ -5,6 +6,7 @@
 
 #include "geometry_cases.h"
 #include "render/geometry/ray_tracer.h"
+#include "vast_ground.h"
 
 namespace h2mc {
 namespace {
@@ -86,7 +88,7 @@ TEST_P(Scales, FindsTheNearestPrimitive) {
     const Vec3f direction = randomDirection(random);
     double edge;
     const Hit expected = bruteForce(shapes, origin, direction, edge);
-    const PrimitiveId id = tracer.intersect(origin, Vec3f(0), direction);
+    const PrimitiveId id = tracer.intersect({origin}, direction);
     hits += expected.id.valid();
     if (id == expected.id) {
       if (!id.valid()) continue;
@@ -96,7 +98,7 @@ TEST_P(Scales, FindsTheNearestPrimitive) {
       const glm::dvec3 along = glm::dvec3(origin) + glm::dvec3(direction) * expected.t;
       const double cosine = std::abs(static_cast<double>(dot(p.ng, direction)));
       ASSERT_LT(glm::length(glm::dvec3(p.p) - along), 2e-6 * static_cast<double>(scale) / cosine);
-      ASSERT_FALSE(tracer.escapes(origin, Vec3f(0), direction));
+      ASSERT_FALSE(tracer.escapes({origin}, direction));
     } else if (edge > 1e-4) {
       ++disagreements;
     }
@@ -109,14 +111,15 @@ TEST_P(Scales, RespectsDistances) {
   const float scale = GetParam();
   const std::vector<Shape> shapes{sphere(Vec3f(0, 0, 5 * scale), scale)};
   const RayTracer tracer(shapes);
-  const Vec3f o(0), z(0, 0, 1);
-  EXPECT_EQ(tracer.intersect(o, o, z).primitive, 0u);
-  EXPECT_EQ(tracer.intersect(o, o, z, 4.5f * scale).primitive, 1u);
-  EXPECT_TRUE(tracer.intersect(o, o, z, 4.5f * scale).valid());
-  EXPECT_FALSE(tracer.intersect(o, o, z, 6.5f * scale).valid());
-  EXPECT_FALSE(tracer.intersect(o, o, z, 0, 3.5f * scale).valid());
-  EXPECT_TRUE(tracer.visible(o, o, z * (3.9f * scale), o));
-  EXPECT_FALSE(tracer.visible(o, o, z * (4.1f * scale), o));
+  const RayEnd o;
+  const Vec3f z(0, 0, 1);
+  EXPECT_EQ(tracer.intersect(o, z).primitive, 0u);
+  EXPECT_EQ(tracer.intersect(o, z, 4.5f * scale).primitive, 1u);
+  EXPECT_TRUE(tracer.intersect(o, z, 4.5f * scale).valid());
+  EXPECT_FALSE(tracer.intersect(o, z, 6.5f * scale).valid());
+  EXPECT_FALSE(tracer.intersect(o, z, 0, 3.5f * scale).valid());
+  EXPECT_TRUE(tracer.visible(o, {z * (3.9f * scale)}));
+  EXPECT_FALSE(tracer.visible(o, {z * (4.1f * scale)}));
 }
 
 // Convex bodies: a ray that leaves the surface outwards meets nothing, one that goes inwards meets
@@ -159,7 +162,7 @@ TEST(RayTracer, LeavesConvexBodies) {
         const Vec3f target = center + randomPoint(random) * (0.5f * c.scale);
         const Vec3f direction = randomDirection(random);
         const Vec3f origin = target - direction * (5 * c.scale);
-        const PrimitiveId id = tracer.intersect(origin, Vec3f(0), direction);
+        const PrimitiveId id = tracer.intersect({origin}, direction);
         if (!id.valid()) continue;
         const SurfacePoint<float> p = intersectPrimitive<float>(shapes, id, origin, direction);
         const Vec3f n = outward(p.ng, p.p, center);
@@ -167,8 +170,8 @@ TEST(RayTracer, LeavesConvexBodies) {
         if (std::abs(dot(next, n)) < 1e-3f) continue;
         ++total;
         if (dot(next, n) < 0) next = -next;
-        selfHits += !tracer.escapes(p.p, p.ng, next);
-        const PrimitiveId inside = tracer.intersect(p.p, p.ng, -next);
+        selfHits += !tracer.escapes(p.end(), next);
+        const PrimitiveId inside = tracer.intersect(p.end(), -next);
         leaks += !inside.valid();
         const bool curved = std::holds_alternative<Sphere>(shapes[0].geometry);
         selfHits += inside.valid() && (curved ? inside.primitive != 1 : inside == id);
@@ -201,15 +204,38 @@ TEST(RayTracer, SeesAcrossConvexRoomsAndNotThroughWalls) {
         const float distance = glm::distance(a.p, b.p);
         const Vec3f w = (b.p - a.p) / distance;
         if (std::min(std::abs(dot(a.ng, w)), std::abs(dot(b.ng, w))) < 0.02f) continue;
-        hidden += !tracer.visible(a.p, a.ng, b.p, b.ng);
+        hidden += !tracer.visible(a.end(), b.end());
         // A little beyond the wall.
         const Vec3f n = outward(b.ng, b.p, center);
-        through +=
-            tracer.visible(a.p, a.ng, b.p + n * (1e-3f * distance + 1e-4f * c.scale), Vec3f(0));
+        through += tracer.visible(a.end(), {b.p + n * (1e-3f * distance + 1e-4f * c.scale)});
       }
       EXPECT_EQ(hidden, 0) << body.name << " scale " << c.scale << " at " << c.by.x;
       EXPECT_LE(through, 2) << body.name << " scale " << c.scale << " at " << c.by.x;
     }
+}
+
+// Between two points of one plane nothing is seen, whichever of them rounding puts on top, nor is a lamp's point in the
+// plane of what it lights.
+TEST(RayTracer, SeesNothingAlongAPlane) {
+  for (const Case& c : kCases) {
+    const std::vector<Shape> shapes{
+        moved(parallelogram(Vec3f(-1, -1, 0), Vec3f(2, 0, 0), Vec3f(0, 2, 0)), tilt(), c.scale,
+              c.by * c.scale)};
+    const RayTracer tracer(shapes);
+    Random random(4, 5, 6);
+    int seen = 0, toBare = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const auto point = [&] {
+        const float u0 = random.uniform(), u1 = random.uniform();
+        return samplePrimitive<float>(shapes, {0, random.next() % 2}, u0, u1);
+      };
+      const SurfacePoint<float> a = point(), b = point();
+      seen += tracer.visible(a.end(), b.end());
+      toBare += tracer.visible(a.end(), {b.p});
+    }
+    EXPECT_EQ(seen, 0) << "scale " << c.scale << " at " << c.by.x;
+    EXPECT_EQ(toBare, 0) << "scale " << c.scale << " at " << c.by.x;
+  }
 }
 
 // A large tilted floor that passes close by the origin: points on it have coordinates that are far
@@ -225,15 +251,147 @@ TEST(RayTracer, LargeTiltedFloorDoesNotHitItself) {
     for (int i = 0; i < 50000; ++i) {
       const Vec3f origin = randomPoint(random) * 3.0f;
       const Vec3f direction = randomDirection(random);
-      const PrimitiveId id = tracer.intersect(origin, Vec3f(0), direction);
+      const PrimitiveId id = tracer.intersect({origin}, direction);
       if (!id.valid()) continue;
       const SurfacePoint<float> p = intersectPrimitive<float>(shapes, id, origin, direction);
       const Vec3f next = randomDirection(random);
       if (std::abs(dot(next, p.ng)) < 1e-3f) continue;
-      selfHits += !tracer.escapes(p.p, p.ng, next);
+      selfHits += !tracer.escapes(p.end(), next);
     }
     EXPECT_EQ(selfHits, 0) << extent;
   }
+}
+
+// Beside a triangle of 10 km what is a tenth of a millimetre counts as if the triangle were not there.
+class VastTriangle : public testing::Test {
+ protected:
+  static constexpr unsigned kGround = 0, kCard = 1, kBox = 2;
+  static constexpr double kGap = 1e-4, kHalfCard = 0.02, kBoxAt = 0.04, kBoxWidth = 1e-3;
+
+  VastGround world_;
+  std::vector<Shape> shapes_{world_.ground(), world_.card(0, 0, kGap, kHalfCard),
+                             world_.box(kBoxAt, 0, kBoxWidth), farBall()};
+  RayTracer tracer_{shapes_};
+  Random random_{4, 5, 6};
+
+  Shape farBall() const { return moved(ball(20, true), tilt(), 1, world_.at(20, 30, 5)); }
+  double within(double halfWidth) { return halfWidth * (2 * random_.uniformDouble() - 1); }
+  // A direction that leaves the ground upwards by `sine` or more.
+  Vec3f upwards(double sine) {
+    for (;;) {
+      const Vec3f d = randomDirection(random_);
+      const double height = glm::dot(glm::dvec3(d), world_.normal());
+      if (std::abs(height) >= sine) return height > 0 ? d : -d;
+    }
+  }
+  // The ground's point below (x, y), by a ray from `height`.
+  SurfacePoint<float> groundAt(double x, double y, double height) {
+    const Vec3f origin = world_.at(x, y, height), down = world_.along(0, 0, -1);
+    const PrimitiveId id = tracer_.intersect({origin}, down);
+    EXPECT_EQ(id.shape, kGround);
+    if (id.shape != kGround) return {};
+    const SurfacePoint<float> point = intersectPrimitive<float>(shapes_, id, origin, down);
+    EXPECT_LT(glm::length(glm::dvec3(point.p) - world_.exactly(x, y, 0)), 1e-7);
+    return point;
+  }
+};
+
+TEST_F(VastTriangle, ThinGapBelowACardIsThere) {
+  int leaks = 0, through = 0, wrong = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const double x = within(0.9 * kHalfCard), y = within(0.9 * kHalfCard);
+    const SurfacePoint<float> point = groundAt(x, y, kGap / 2);
+    const Vec3f up = upwards(0.1);
+    leaks += tracer_.intersect(point.end(), up).shape != kCard;
+    leaks += tracer_.escapes(point.end(), up);
+    leaks += tracer_.visible(point.end(), {world_.at(0.01, 0.02, 0.3)});
+    // From a distance the card is before the ground, and from its underside the ground is next.
+    const Vec3f eye = world_.at(within(1), within(1), 0.2 + random_.uniformDouble());
+    const Vec3f towards = glm::normalize(world_.at(x, y, kGap) - eye);
+    const PrimitiveId id = tracer_.intersect({eye}, towards);
+    wrong += id.shape != kCard;
+    if (id.shape != kCard) continue;
+    const SurfacePoint<float> card = intersectPrimitive<float>(shapes_, id, eye, towards);
+    through += tracer_.intersect(card.end(), world_.along(0.3, 0.1, -1)).shape != kGround;
+    through += tracer_.visible(card.end(), {world_.at(x, y, -1e-2)});
+    through += !tracer_.visible(card.end(), {eye});
+    through += !tracer_.visible(card.end(), point.end());
+  }
+  EXPECT_EQ(leaks, 0);
+  EXPECT_EQ(wrong, 0);
+  EXPECT_EQ(through, 0);
+}
+
+TEST_F(VastTriangle, ContactShadowReachesTheBox) {
+  int leaks = 0, dark = 0;
+  for (int i = 0; i < 5000; ++i) {
+    // Beside a wall of the box, 1 to 50 micrometres away from it, and as far up it.
+    const double away = 1e-6 + 5e-5 * random_.uniformDouble();
+    const double y = within(0.4 * kBoxWidth), wall = kBoxAt - kBoxWidth / 2;
+    const SurfacePoint<float> point = groundAt(wall - away, y, 1e-3);
+    leaks += tracer_.intersect(point.end(), world_.along(1, 0, 0.5)).shape != kBox;
+    leaks += tracer_.visible(point.end(), {world_.at(wall + 0.1, y, 0.1)});
+    dark += !tracer_.visible(point.end(), {world_.at(wall - 0.1, y, 0.1)});
+    const Vec3f origin = world_.at(wall - 0.1, y, away), along = world_.along(1, 0, 0);
+    const PrimitiveId id = tracer_.intersect({origin}, along);
+    ASSERT_EQ(id.shape, kBox);
+    const SurfacePoint<float> side = intersectPrimitive<float>(shapes_, id, origin, along);
+    leaks += tracer_.intersect(side.end(), world_.along(-1, 0, -1)).shape != kGround;
+    dark += !tracer_.visible(side.end(), point.end());
+  }
+  EXPECT_EQ(leaks, 0);
+  EXPECT_EQ(dark, 0);
+}
+
+// From near and far, and over the edge that its two triangles share.
+TEST_F(VastTriangle, DoesNotHitItself) {
+  int selfHits = 0, missed = 0, total = 0;
+  for (int i = 0; i < 50000; ++i) {
+    const double distance = std::pow(10, within(3.5));
+    const Vec3f origin = world_.at(within(distance), within(distance), 0.05 + distance / 10);
+    const Vec3f down = -upwards(0.05);
+    const PrimitiveId id = tracer_.intersect({origin}, down);
+    if (id.valid() && id.shape != kGround) continue;
+    missed += !id.valid();
+    if (!id.valid()) continue;
+    const SurfacePoint<float> point = intersectPrimitive<float>(shapes_, id, origin, down);
+    const PrimitiveId next = tracer_.intersect(point.end(), upwards(1e-3));
+    ++total;
+    selfHits += next.shape == kGround;
+  }
+  EXPECT_GT(total, 40000);
+  // Beyond the ground's end.
+  EXPECT_LT(missed, total / 10);
+  EXPECT_EQ(selfHits, 0);
+}
+
+// A shape that moves is looked at in the same way.
+TEST_F(VastTriangle, ThatMoves) {
+  MovingMesh moving;
+  const auto& still = std::get<TriangleMesh>(world_.ground().geometry);
+  for (const double height : {0.0, 0.3})
+    for (const Vec3f& p : still.positions)
+      moving.positions.push_back(p + Vec3f(world_.normal() * height));
+  moving.triangles = still.triangles;
+  const std::vector<Shape> shapes{{"ground", moving}, farBall()};
+  const RayTracer tracer(shapes);
+  int wrong = 0, selfHits = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const float time = random_.uniform();
+    const Vec3f origin = world_.at(within(1), within(1), 0.5), down = -upwards(0.1);
+    const PrimitiveId id = tracer.intersect({origin}, down, 0, RayTracer::kFar, time);
+    if (id.shape == 1) continue;
+    wrong += !id.valid();
+    if (!id.valid()) continue;
+    const SurfacePoint<float> point = intersectPrimitive<float>(shapes, id, origin, down, &time);
+    selfHits += tracer.intersect(point.end(), upwards(1e-3), 0, RayTracer::kFar, time).shape == 0;
+    // A tenth of a millimetre above it and below.
+    const Vec3f beside = Vec3f(world_.normal() * 1e-4);
+    wrong += !tracer.visible({origin}, {point.p + beside}, time);
+    wrong += tracer.visible({origin}, {point.p - beside}, time);
+  }
+  EXPECT_EQ(wrong, 0);
+  EXPECT_EQ(selfHits, 0);
 }
 
 // Planes through the origin of coordinates, where ulps are no measure.
@@ -244,10 +402,10 @@ TEST(RayTracer, LeavesFromTheOrigin) {
   const RayTracer tracer(shapes);
   const Vec3f up(0, 1, 0);
   for (const Vec3f& direction : {up, glm::normalize(Vec3f(1, 0.1f, 0.3f))}) {
-    EXPECT_EQ(tracer.intersect(Vec3f(0), up, direction).shape, 1u);
-    EXPECT_TRUE(tracer.escapes(Vec3f(0), up, -direction));
+    EXPECT_EQ(tracer.intersect({Vec3f(0), up}, direction).shape, 1u);
+    EXPECT_TRUE(tracer.escapes({Vec3f(0), up}, -direction));
   }
-  EXPECT_TRUE(tracer.visible(Vec3f(0), up, Vec3f(0.1f, 0.01f, 0), up));
+  EXPECT_TRUE(tracer.visible({Vec3f(0), up}, {Vec3f(0.1f, 0.01f, 0), up}));
 }
 
 // The same hits from each build, also where triangles share an edge or a corner.
@@ -260,21 +418,21 @@ TEST(RayTracer, IsTheSameEachTimeItIsBuilt) {
     const Vec3f o = randomPoint(random) * 3.0f;
     const Vec3f target = mesh.positions[random.next() % mesh.positions.size()];
     const Vec3f d = glm::normalize(target - o);
-    ASSERT_EQ(a.intersect(o, Vec3f(0), d), b.intersect(o, Vec3f(0), d));
+    ASSERT_EQ(a.intersect({o}, d), b.intersect({o}, d));
   }
 }
 
 TEST(RayTracer, NothingToHit) {
   const std::vector<Shape> none;
   const RayTracer empty(none);
-  EXPECT_FALSE(empty.intersect(Vec3f(0), Vec3f(0), Vec3f(0, 0, 1)).valid());
-  EXPECT_TRUE(empty.visible(Vec3f(0), Vec3f(0), Vec3f(0, 0, 1), Vec3f(0)));
-  EXPECT_TRUE(empty.escapes(Vec3f(0), Vec3f(0), Vec3f(0, 0, 1)));
+  EXPECT_FALSE(empty.intersect({}, Vec3f(0, 0, 1)).valid());
+  EXPECT_TRUE(empty.visible({}, {Vec3f(0, 0, 1)}));
+  EXPECT_TRUE(empty.escapes({}, Vec3f(0, 0, 1)));
 
   // An empty mesh does not shift the numbers of the others.
   const std::vector<Shape> shapes{meshShape({}, {}), sphere(Vec3f(0), 1)};
   const RayTracer tracer(shapes);
-  EXPECT_EQ(tracer.intersect(Vec3f(0, 0, -5), Vec3f(0), Vec3f(0, 0, 1)), (PrimitiveId{1, 0}));
+  EXPECT_EQ(tracer.intersect({Vec3f(0, 0, -5)}, Vec3f(0, 0, 1)), (PrimitiveId{1, 0}));
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Points on primitives: conventions, inverses, areas.
 #include <gtest/gtest.h>
 

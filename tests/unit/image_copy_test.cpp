@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The picture as a target, and the chains that copy it.
 #include "demo/image_copy.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Image files: what is written comes back, and a file is there whole or not at all.
 #include "render/image/image_io.h"
 
@@ -199,6 +200,50 @@ TEST_F(ImageIo, SaysWhatCannotBeRead) {
     EXPECT_NE(message(path(name)).find(name), std::string::npos) << name;
   }
   EXPECT_THROW(readAttributes(path("bad.exr")), ImageError);
+}
+
+// A grey picture of one pixel, 128 of 255; the chunk between header and data.
+std::string png(const std::string& chunk) {
+  const auto bytes = [](std::initializer_list<int> list) {
+    std::string text;
+    for (const int b : list) text += static_cast<char>(b);
+    return text;
+  };
+  return bytes({0x89, 'P', 'N', 'G', 13, 10, 26, 10}) +
+         bytes({0, 0, 0, 13, 'I', 'H', 'D', 'R', 0,    0,    0,    1,   0,
+                0, 0, 1, 8,  0,   0,   0,   0,   0x3A, 0x7E, 0x9B, 0x55}) +
+         chunk + bytes({0,    0,    0,    10,   'I',  'D',  'A',  'T',  0x78, 0x9C, 0x63,
+                        0x68, 0x00, 0x00, 0x00, 0x82, 0x00, 0x81, 0x77, 0xCD, 0x72, 0xB6}) +
+         bytes({0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xAE, 0x42, 0x60, 0x82});
+}
+
+TEST_F(ImageIo, PngsGammaCounts) {
+  const auto value = [&](const std::string& chunk) {
+    std::ofstream(path("a.png"), std::ios::binary) << png(chunk);
+    return readImage(path("a.png")).at(0, 0).y;
+  };
+  const auto gama = [](int a, int b, int c, std::initializer_list<int> check) {
+    std::string text{0, 0, 0, 4, 'g', 'A', 'M', 'A', 0};
+    for (const int x : {a, b, c}) text += static_cast<char>(x);
+    for (const int x : check) text += static_cast<char>(x);
+    return text;
+  };
+  const float linear = 128 / 255.f;
+  EXPECT_NEAR(value(""), 0.21586f, 1e-4f);                                                // sRGB
+  EXPECT_NEAR(value(gama(0x01, 0x86, 0xA0, {0x31, 0xE8, 0x96, 0x5F})), linear, 1e-6f);    // 1
+  EXPECT_NEAR(value(gama(0x00, 0xB1, 0x8F, {0x0B, 0xFC, 0x61, 0x05})), 0.21586f, 1e-4f);  // 1/2.2
+  // 1 / 1.8
+  EXPECT_NEAR(value(gama(0x00, 0xD9, 0x04, {0xDC, 0xB2, 0xDA, 0x02})), std::pow(linear, 1.8f),
+              1e-4f);
+}
+
+TEST_F(ImageIo, OneChannelAlone) {
+  Image image(1, 1);
+  image.at(0, 0) = Rgbf(0.1f, 0.2f, 0.3f);
+  writeImage(path("a.exr"), image);
+  EXPECT_EQ(readImage(path("a.exr"), 0, "b").at(0, 0), Rgbf(0.3f));
+  EXPECT_EQ(readImage(path("a.exr"), 0, "G").at(0, 0), Rgbf(0.2f));
+  EXPECT_THROW(readImage(path("a.exr"), 0, "a"), ImageError);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Image metrics against closed forms.
 #include <gtest/gtest.h>
 

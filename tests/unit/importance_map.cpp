@@ -1,4 +1,5 @@
-#include "mcmc/importance_map.h"
+// SPDX-License-Identifier: MIT
+#include "mcmc/targets/importance_map.h"
 
 #include <gtest/gtest.h>
 
@@ -43,6 +44,22 @@ TEST(ImportanceMap, KeepsTheTargetsMean) {
   for (int x = 0; x < 50; ++x) sampled.at(x, 3) *= 7.f;
   for (const int cell : {1, 2, 7, 64})
     EXPECT_NEAR(meanUnder(ImportanceMap(picture, sampled, cell), sampled), 1, 1e-5) << cell;
+}
+
+// What varies along one axis alone is blurred along that axis alone, in every row or column alike.
+TEST(ImportanceMap, BlursRowsAndColumnsAlike) {
+  Image wide(24, 10), high(10, 24);
+  for (int y = 0; y < 10; ++y)
+    for (int x = 0; x < 24; ++x)
+      wide.at(x, y) = high.at(y, x) = Rgbf(std::exp(0.2f * static_cast<float>(x)));
+  const ImportanceMap across(wide, wide, 1), down(high, high, 1);
+  for (int x = 0; x < 24; ++x)
+    for (int y = 0; y < 10; ++y) {
+      const float expected = across(centre(x, 24), centre(0, 10));
+      EXPECT_NEAR(across(centre(x, 24), centre(y, 10)), expected, 1e-5f * expected)
+          << x << " " << y;
+      EXPECT_NEAR(down(centre(y, 10), centre(x, 24)), expected, 1e-5f * expected) << x << " " << y;
+    }
 }
 
 TEST(ImportanceMap, MakesTheTargetEven) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lights: conventions, inverses, and the same densities from each of their three functions.
 #include <gtest/gtest.h>
 
@@ -78,7 +79,7 @@ TEST(Lights, EmittedRaysAgreeWithDirectSamples) {
         const float distance = l.isInfinite() ? 2 * c.bounds.radius : 1.7f;
         const Vec3f seenFrom = e.origin + e.direction * distance;
         Vec2f u;
-        float back;
+        float back = 0.5f;
         ASSERT_TRUE(l.invertDirect(c.context(), id, seenFrom, -e.direction, distance, u, back))
             << c.name;
         const auto d = l.template sampleDirect<float>(c.context(), id, seenFrom, u.x, u.y);
@@ -121,7 +122,8 @@ TEST(Lights, InvertGivesTheSampleBack) {
         const PrimitiveId id = l.choosePrimitive(context, choice);
         const auto d = l.template sampleDirect<float>(context, id, kReference, u0, u1);
         Vec2f u, v;
-        float back;
+        const float remainder = random.uniform();
+        float back = remainder;
         ASSERT_TRUE(l.invertDirect(context, id, kReference, d.direction, d.distance, u, back))
             << c.name;
         EXPECT_EQ(l.choosePrimitive(context, back), id) << c.name;
@@ -136,6 +138,7 @@ TEST(Lights, InvertGivesTheSampleBack) {
         }
 
         const auto e = l.template sampleEmission<float>(context, id, u0, u1, v0, v1);
+        back = remainder;
         ASSERT_TRUE(l.invertEmission(context, id, e.origin, e.direction, u, v, back)) << c.name;
         EXPECT_EQ(l.choosePrimitive(context, back), id) << c.name;
         const auto same = l.template sampleEmission<float>(context, id, u.x, u.y, v.x, v.y);

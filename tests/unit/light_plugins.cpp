@@ -1,9 +1,12 @@
+// SPDX-License-Identifier: MIT
 // Lights as scene files make them.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <map>
+#include <numbers>
 #include <string>
 #include <variant>
 
@@ -124,7 +127,7 @@ TEST(LightPlugins, Places) {
 }
 
 TEST(LightPlugins, Mistakes) {
-  EXPECT_THROW(make("spot", {{"texture", Rgbf(1)}}), SceneError);
+  EXPECT_THROW(make("spot", {{"texture", Rgbf(1)}, {"cutoffAngle", 90.f}}), SceneError);
   EXPECT_THROW(make("spot", {{"cutoffAngle", 0.f}}), SceneError);
   EXPECT_THROW(make("spot", {{"cutoffAngle", 200.f}}), SceneError);
   EXPECT_THROW(make("spot", {{"beamWidth", 30.f}}), SceneError);
@@ -151,9 +154,27 @@ TEST(LightPlugins, Envmap) {
   const Rgbf a = radiance(plain, d), b = radiance(turned, glm::mat3(rotationAboutY(40)) * d);
   EXPECT_LT(glm::length(b - a * 3.0f), 1e-3f * glm::length(b));
 
-  Mat4 sheared(1);
-  sheared[1] = {0.5f, 1, 0, 0};
-  EXPECT_THROW(make("envmap", {{"filename", file}, {"toWorld", sheared}}), SceneError);
+  // Stretched, sheared and turned: along M d there is what was along d.
+  Mat4 stretched(1);
+  stretched[0] = {1.5f, 0, 0, 0};
+  stretched[1] = {0.2f, 1, 0, 0};
+  const Mat4 m = rotationAboutY(40) * stretched;
+  image = Image(512, 256);  // smooth
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const float phi = 2 * std::numbers::pi_v<float> * (static_cast<float>(x) + 0.5f) / 512;
+      const float theta = std::numbers::pi_v<float> * (static_cast<float>(y) + 0.5f) / 256;
+      image.at(x, y) = Rgbf(1 + 0.9f * std::sin(phi) * std::sin(theta), 1 + 0.9f * std::cos(theta),
+                            1 - 0.9f * std::cos(phi) * std::sin(theta));
+    }
+  writeImage(file, image);
+  const Light fine = make("envmap", {{"filename", file}});
+  const Light warped = make("envmap", {{"filename", file}, {"toWorld", m}});
+  for (const Vec3f& v : {Vec3f(0.3f, 0.4f, 0.7f), Vec3f(-0.6f, 0.1f, 0.2f), Vec3f(0.1f, -1, 0)}) {
+    const Rgbf there = radiance(fine, v), here = radiance(warped, glm::mat3(m) * v);
+    EXPECT_LT(glm::length(here - there), 1e-3f * glm::length(there));
+  }
+  EXPECT_THROW(make("envmap", {{"filename", file}, {"toWorld", Mat4(0)}}), SceneError);
   EXPECT_THROW(make("envmap", {{"filename", file}, {"scale", -1.f}}), SceneError);
   std::filesystem::remove(file);
   EXPECT_THROW(make("envmap", {{"filename", file}}), SceneError);

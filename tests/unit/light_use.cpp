@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/path/light_use.h"
 
 #include <gtest/gtest.h>

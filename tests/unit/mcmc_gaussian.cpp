@@ -1,10 +1,12 @@
+// SPDX-License-Identifier: MIT
 // The Hamiltonian Gaussian against the dynamics it stands for, and its density against its samples.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "mcmc/gaussian.h"
-#include "mcmc/technique_distribution.h"
+#include "mcmc/mutations/gaussian.h"
+#include "mcmc/mutations/technique_distribution.h"
+#include "render/core/index.h"
 
 namespace h2mc {
 namespace {
@@ -68,11 +70,11 @@ TEST(HamiltonianGaussian, IsThePriorWhereDerivativesAreNegligible) {
   settings.sigma = 0.01f;
   Gaussian gaussian;
   ASSERT_TRUE(hamiltonianGaussian(oneDimension(4.9f, -490), settings, gaussian));
-  EXPECT_TRUE(gaussian.isotropic);
+  EXPECT_TRUE(gaussian.alongAxes);
   EXPECT_EQ(gaussian.deviation[0], 0.01f);
   for (const auto& [gradient, hessian] : {std::pair{5.1f, 0.f}, std::pair{0.f, -510.f}}) {
     ASSERT_TRUE(hamiltonianGaussian(oneDimension(gradient, hessian), settings, gaussian));
-    EXPECT_FALSE(gaussian.isotropic);
+    EXPECT_FALSE(gaussian.alongAxes);
     EXPECT_NEAR(gaussian.deviation[0], 0.01, 0.01 * 0.03);
     EXPECT_NEAR(gaussian.mean[0], 0, 0.01 * 0.06);
   }
@@ -92,7 +94,7 @@ TEST(HamiltonianGaussian, FallsBackWhenDerivativesAreNotFinite) {
   for (const float bad :
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     EXPECT_FALSE(hamiltonianGaussian(oneDimension(bad, -1), settings, gaussian));
-    EXPECT_TRUE(gaussian.isotropic);
+    EXPECT_TRUE(gaussian.alongAxes);
     EXPECT_FALSE(hamiltonianGaussian(oneDimension(0, bad), settings, gaussian));
     EXPECT_FLOAT_EQ(gaussian.deviation[0], settings.sigma);
   }
@@ -141,7 +143,7 @@ TEST(TechniqueDistribution, LeavesOutWhatCannotBe) {
   TechniqueDistribution techniques(1, 2);
   EXPECT_EQ(techniques.probability(Technique{1, 1}), 0);
   std::vector<double> weights(static_cast<std::size_t>(techniques.size()), 0);
-  weights[static_cast<std::size_t>(techniques.index({0, 3}))] = 1;
+  weights[at(techniques.index({0, 3}))] = 1;
   techniques.setWeights(weights, std::vector<bool>(weights.size(), true));
   double sum = 0;
   for (int i = 0; i < techniques.size(); ++i) {

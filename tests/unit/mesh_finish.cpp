@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From a file's mesh to a shape in world space, as Mitsuba 0.6 does it.
 #include <gtest/gtest.h>
 

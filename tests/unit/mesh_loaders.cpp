@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Meshes of every format, whole and broken.
 #include <gtest/gtest.h>
 #include <zlib.h>

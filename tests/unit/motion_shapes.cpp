@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Moving shapes: as they are read, and whether Embree sees what the templated code computes.
 #include <gtest/gtest.h>
 
@@ -79,8 +80,7 @@ TEST(MovingShapes, EmbreeSeesTheSame) {
       const Vec3f target = s.bounds.center + randomPoint(random) * s.bounds.radius * 0.6f;
       const Vec3f direction = randomDirection(random);
       const Vec3f origin = target - direction * (3 * s.bounds.radius);
-      const PrimitiveId id =
-          s.tracer->intersect(origin, Vec3f(0), direction, 0, RayTracer::kFar, time);
+      const PrimitiveId id = s.tracer->intersect({origin}, direction, 0, RayTracer::kFar, time);
       if (!id.valid()) continue;
       const auto point = intersectPrimitive<float>(s.shapes, id, origin, direction, &time);
       if (std::abs(dot(point.ng, direction)) < 0.02f) continue;  // grazing: ill-conditioned
@@ -92,8 +92,8 @@ TEST(MovingShapes, EmbreeSeesTheSame) {
       EXPECT_TRUE(invertPrimitive(s.shapes, id, point.p, u, &time));
       // Embree finds it at the same distance: not a bit nearer, and not a bit farther.
       const float slack = 2e-5f * s.bounds.radius;
-      EXPECT_FALSE(s.tracer->intersect(origin, Vec3f(0), direction, 0, t - slack, time).valid());
-      EXPECT_EQ(s.tracer->intersect(origin, Vec3f(0), direction, t - slack, t + slack, time), id);
+      EXPECT_FALSE(s.tracer->intersect({origin}, direction, 0, t - slack, time).valid());
+      EXPECT_EQ(s.tracer->intersect({origin}, direction, t - slack, t + slack, time), id);
     }
     EXPECT_GT(hits, 1500);
     EXPECT_LT(worst, 1e-5 * double(s.bounds.radius));
@@ -118,7 +118,7 @@ TEST(MovingShapes, NoSelfIntersection) {
     const detail::MeshAtMoment<float> view(mesh, time);
     for (unsigned k = 0; k < 4; ++k) middle += view.position(k) * 0.25f;
     const Vec3f out = dot(point.ng, point.p - middle) < 0 ? -point.ng : point.ng;
-    EXPECT_TRUE(s.tracer->escapes(point.p, point.ng, out, time));
+    EXPECT_TRUE(s.tracer->escapes(point.end(), out, time));
   }
 }
 
@@ -208,30 +208,26 @@ TEST(MovingScene, Mistakes) {
     const std::string message = folder.error(scene(body));
     EXPECT_NE(message.find(what), std::string::npos) << body << "\n" << message;
   };
+  const auto animation = [](const std::string& keyframes) {
+    return "<animation name=\"toWorld\">" + keyframes + "</animation>";
+  };
   const std::string a = shape("obj", "<string name=\"filename\" value=\"a.obj\"/>");
   const std::string other = shape("obj", "<string name=\"filename\" value=\"other.obj\"/>");
-  says(
-      shape(
-          "sphere",
-          R"(<animation name="toWorld"><transform time="1"/><transform time="1"><scale value="2"/></transform></animation>)"),
-      "a second keyframe at the same time");
-  says(
-      shape(
-          "cube",
-          R"(<animation name="toWorld"><transform time="0"/><transform time="1"><scale x="-1"/></transform></animation>)"),
-      "one keyframe mirrors and another does not");
-  says(shape("cube",
-             R"(<animation name="toWorld"><transform><translate x="1"/></transform></animation>)"),
-       "time");
-  says(shape("cube", R"(<animation name="toWorld"></animation>)"), "without keyframes");
-  says(
-      shape(
-          "sphere",
-          R"(<animation name="toWorld"><transform time="0"/><transform time="1"><scale x="2"/></transform></animation>)"),
-      "ellipsoid");
-  says(
-      R"(<emitter type="spot"><animation name="toWorld"><transform time="0"/><transform time="1"><translate x="2"/></transform></animation></emitter>)",
-      "can't move");
+  says(shape("sphere", animation(R"(<transform time="1"/>
+                                    <transform time="1"><scale value="2"/></transform>)")),
+       "a second keyframe at the same time");
+  says(shape("cube", animation(R"(<transform time="0"/>
+                                  <transform time="1"><scale x="-1"/></transform>)")),
+       "one keyframe mirrors and another does not");
+  says(shape("cube", animation(R"(<transform><translate x="1"/></transform>)")), "time");
+  says(shape("cube", animation("")), "without keyframes");
+  says(shape("sphere", animation(R"(<transform time="0"/>
+                                    <transform time="1"><scale x="2"/></transform>)")),
+       "ellipsoid");
+  says("<emitter type=\"spot\">" + animation(R"(<transform time="0"/>
+                                                <transform time="1"><translate x="2"/></transform>)") +
+           "</emitter>",
+       "can't move");
   says(shape("deforming", a), "needs two states");
   says(shape("deforming", a + other), "does not fit the first");
   says(shape("deforming", a + shape("sphere", "")), "can't deform");

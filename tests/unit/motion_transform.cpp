@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Keyframed transforms and what they are cut into.
 #include <gtest/gtest.h>
 

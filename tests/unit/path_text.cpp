@@ -1,7 +1,9 @@
+// SPDX-License-Identifier: MIT
 #include "render/path/path_text.h"
 
 #include <gtest/gtest.h>
 
+#include "render/core/index.h"
 #include "render/core/random.h"
 
 namespace h2mc {
@@ -11,10 +13,8 @@ TEST(PathText, ComesBackToTheLastBit) {
   Random random(3, 1, 4);
   for (const Technique technique : {Technique{0, 2}, Technique{2, 1}, Technique{3, 4}}) {
     PrimarySample sample{};
-    for (int i = 0; i < technique.dimension(); ++i)
-      sample.u[static_cast<std::size_t>(i)] = random.uniform();
-    for (int i = 0; i < technique.choices(); ++i)
-      sample.choice[static_cast<std::size_t>(i)] = random.uniform();
+    for (int i = 0; i < technique.dimension(); ++i) sample.u[at(i)] = random.uniform();
+    for (int i = 0; i < technique.choices(); ++i) sample.choice[at(i)] = random.uniform();
     Technique technique2;
     PrimarySample sample2;
     EXPECT_EQ(parsePathText(pathText(technique, sample), technique2, sample2), "");

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Images on the way of a render.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Changes to a scene's document, and what is done to extreme ones before they are read.
 #include <gtest/gtest.h>
 

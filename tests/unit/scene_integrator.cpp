@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a scene says of rendering: <integrator>, dpt's <dpt>, and the options they set.
 #include <gtest/gtest.h>
 
@@ -42,14 +43,107 @@ TEST(SceneIntegrator, MitsubasPathIsOurs) {
   EXPECT_TRUE(hasNote(scene, "strictNormals"));
 }
 
-TEST(SceneIntegrator, OtherMethodsOfMitsubaLeaveTheChoice) {
+TEST(SceneIntegrator, OtherMethodsOfMitsubaAreRenderedByTheNearest) {
   const Scene scene = readBody(
       "<integrator type=\"mlt\"><integer name=\"maxDepth\" value=\"8\"/><boolean "
       "name=\"lensPerturbation\" value=\"false\"/></integrator>");
-  EXPECT_TRUE(scene.integrator.integrator().empty());
+  EXPECT_EQ(scene.integrator.integrator(), "mmlt");
+  EXPECT_EQ(scene.integrator.integer("maxDepth"), 8);
   EXPECT_EQ(scene.options.at("maxDepth"), "8");
-  EXPECT_TRUE(hasNote(scene, "integrator \"mlt\""));
-  EXPECT_TRUE(readBody("<integrator type=\"photonmapper\"/>").integrator.integrator().empty());
+  EXPECT_TRUE(hasNote(scene, "lensPerturbation of integrator \"mlt\""));
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("scene.xml:2:19: warning: integrator \"mlt\" is rendered by "
+                                   "\"mmlt\"\n"),
+            std::string::npos)
+      << scene.warnings[0];
+  for (const auto& [theirs, ours] :
+       {std::pair("volpath", "path"), std::pair("volpath_simple", "path"),
+        std::pair("guided_path", "path"), std::pair("pssmlt", "mmlt"), std::pair("erpt", "mmlt"),
+        std::pair("photonmapper", "bdpt")}) {
+    const Scene read = readBody("<integrator type=\"" + std::string(theirs) + "\"/>");
+    EXPECT_EQ(read.integrator.integrator(), ours);
+    EXPECT_EQ(read.warnings.size(), 1u) << theirs;
+  }
+}
+
+// A table entry is for as long as there is no method of that name.
+TEST(SceneIntegrator, OwnMethodsGoBeforeTheTable) {
+  static constexpr Parameter kParameters[] = {
+      {"maxDepth", ParameterType::kInteger, "-1", "longest path"}};
+  static const IntegratorPlugin kPlugins[] = {{"mmlt", "", kParameters}, {"mlt", "", kParameters}};
+  const SceneFolder folder;
+  ReadOptions options;
+  options.integrators = kPlugins;
+  const Scene scene =
+      readScene(folder.write("scene.xml", sceneWith("<integrator type=\"mlt\"/>")), options);
+  EXPECT_EQ(scene.integrator.integrator(), "mlt");
+  EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(SceneIntegrator, UnknownOnesAreWarnedOf) {
+  const Scene scene = readBody(
+      "<integrator type=\"h2nc\"><integer name=\"maxDepth\" value=\"6\"/><float name=\"x\" "
+      "value=\"1\"/></integrator>");
+  EXPECT_TRUE(scene.integrator.integrator().empty());
+  EXPECT_EQ(scene.options.at("maxDepth"), "6");
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  for (const char* part : {"scene.xml:2:19: warning: unknown integrator \"h2nc\"\n", "-i NAME",
+                           "did you mean \"h2mc\"", "path"})
+    EXPECT_NE(scene.warnings[0].find(part), std::string::npos) << scene.warnings[0];
+}
+
+TEST(SceneIntegrator, DirectIsDirectLight) {
+  const Scene scene = readBody("<integrator type=\"direct\"/>");
+  EXPECT_EQ(scene.integrator.integrator(), "path");
+  EXPECT_EQ(scene.integrator.integer("maxDepth"), 2);
+  EXPECT_EQ(scene.options.at("maxDepth"), "2");  // by whatever it is rendered
+  EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(SceneIntegrator, WrappersStandForTheOneInside) {
+  const Scene scene = readBody(
+      "<integrator type=\"aov\"><string name=\"aovs\" value=\"dd:depth\"/>"
+      "<integrator type=\"moment\"><integrator type=\"path\"><integer name=\"maxDepth\" "
+      "value=\"5\"/></integrator></integrator></integrator>");
+  EXPECT_EQ(scene.integrator.integrator(), "path");
+  EXPECT_EQ(scene.integrator.integer("maxDepth"), 5);
+  EXPECT_TRUE(hasNote(scene, "\"aov\""));
+  EXPECT_TRUE(hasNote(scene, "\"moment\""));
+  const Scene referred = readBody(
+      "<integrator type=\"bdpt\" id=\"inner\"/>"
+      "<integrator type=\"adaptive\"><ref id=\"inner\"/></integrator>");
+  EXPECT_EQ(referred.integrator.integrator(), "bdpt");
+  // Nothing inside: as any other that there is not.
+  EXPECT_EQ(readBody("<integrator type=\"adaptive\"/>").warnings.size(), 1u);
+  // One that contains itself ends.
+  readBody("<integrator type=\"moment\" id=\"a\"><ref id=\"a\"/></integrator>");
+}
+
+TEST(SceneIntegrator, HiddenEmittersLeaveOutPathsOfOneEdge) {
+  const std::string hide = "<boolean name=\"hideEmitters\" value=\"true\"/>";
+  EXPECT_EQ(readBody("<integrator type=\"path\">" + hide + "</integrator>").options.at("minDepth"),
+            "2");
+  EXPECT_EQ(
+      readBody("<integrator type=\"direct\">" + hide + "</integrator>").options.at("minDepth"),
+      "2");
+  EXPECT_EQ(readBody("<integrator type=\"unknown\"><boolean name=\"hide_emitters\" value=\"true\"/>"
+                     "</integrator>")
+                .options.at("minDepth"),
+            "2");
+  EXPECT_EQ(readBody("<integrator type=\"path\"><boolean name=\"hideEmitters\" value=\"false\"/>"
+                     "</integrator>")
+                .options.count("minDepth"),
+            0u);
+  // A lamp behind a hole of a mask would still be seen.
+  const std::string mask =
+      "<shape type=\"disk\"><bsdf type=\"mask\"><float name=\"opacity\" value=\"0.5\"/>"
+      "<bsdf type=\"diffuse\"/></bsdf></shape>";
+  const std::string scene = sceneWith("<integrator type=\"path\">" + hide + "</integrator>" + mask);
+  const std::string message = SceneFolder().error(scene);
+  EXPECT_NE(message.find("hideEmitters in a scene with masks"), std::string::npos) << message;
+  ReadOptions permissive;
+  permissive.strictness = Strictness::kPermissive;
+  EXPECT_EQ(SceneFolder().read(scene, permissive).warnings.size(), 1u);
 }
 
 TEST(SceneIntegrator, DptBlockWins) {

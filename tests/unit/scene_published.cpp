@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The published scenes load as they are.
 #include <gtest/gtest.h>
 
@@ -34,7 +35,7 @@ TEST(ScenePublished, Torus) {
   EXPECT_EQ(scene.samplesPerPixel, 64);
   // The camera sees something straight ahead.
   const PrimitiveId hit =
-      scene.tracer->intersect(scene.camera.position(), Vec3f(0), scene.camera.forward());
+      scene.tracer->intersect({scene.camera.position()}, scene.camera.forward());
   EXPECT_TRUE(hit.valid());
   for (const Shape& shape : scene.shapes) {
     const auto& mesh = std::get<TriangleMesh>(shape.geometry);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a scene file says arrives in the scene.
 #include "render/scene/scene_reader.h"
 
@@ -5,6 +6,7 @@
 
 #include <algorithm>
 
+#include "render/core/index.h"
 #include "scene_files.h"
 
 namespace h2mc::testing {
@@ -81,6 +83,7 @@ TEST(SceneReader, Filters) {
   EXPECT_FLOAT_EQ(filter("<rfilter type=\"box\"/>").radius, 0.5f);
   EXPECT_EQ(filter("<rfilter type=\"tent\"/>").kind, Filter::Kind::kTent);
   EXPECT_FLOAT_EQ(filter("<rfilter type=\"tent\"/>").radius, 1);
+  EXPECT_FLOAT_EQ(filter("<rfilter type=\"catmullrom\"/>").c, 0.5f);
   const Filter gaussian =
       filter("<rfilter type=\"gaussian\"><float name=\"stddev\" value=\"0.7\"/></rfilter>");
   EXPECT_FLOAT_EQ(gaussian.stddev, 0.7f);
@@ -102,6 +105,42 @@ TEST(SceneReader, SizeFromTheCommandLine) {
   EXPECT_EQ(size(5, 7, 0), std::pair(5, 7));
   EXPECT_EQ(size(0, 0, 0.5), std::pair(4, 3));
   EXPECT_EQ(size(0, 0, 0.01), std::pair(1, 1));
+}
+
+TEST(SceneReader, ACropIsAWindowOfTheWholeView) {
+  const SceneFolder folder;
+  const auto film = [](const std::string& crop) {
+    return "<scene version=\"0.6.0\"><sensor type=\"perspective\"><float name=\"fov\" "
+           "value=\"50\"/>"
+           "<film type=\"hdrfilm\"><integer name=\"width\" value=\"120\"/><integer name=\"height\" "
+           "value=\"90\"/>" +
+           crop + "</film></sensor>" + kLight + kSphere + "</scene>";
+  };
+  const std::string crop =
+      "<integer name=\"cropOffsetX\" value=\"10\"/><integer name=\"cropOffsetY\" value=\"22\"/>"
+      "<integer name=\"cropWidth\" value=\"80\"/><integer name=\"cropHeight\" value=\"60\"/>";
+  const Scene whole = folder.read(film("")), part = folder.read(film(crop));
+  EXPECT_EQ(part.film.width, 80);
+  EXPECT_EQ(part.film.height, 60);
+  EXPECT_NEAR(part.camera.filmArea() / whole.camera.filmArea(), 80.0 * 60 / (120 * 90), 1e-6);
+  for (const Vec2f& p : {Vec2f(0, 0), Vec2f(0.3f, 0.8f), Vec2f(1, 1)}) {
+    const Vec3f here = part.camera.direction<float>(p.x, p.y);
+    const Vec3f there = whole.camera.direction<float>((10 + 80 * p.x) / 120, (22 + 60 * p.y) / 90);
+    EXPECT_LT(glm::length(here - there), 1e-6f);
+  }
+  float x = 0, y = 0;
+  const Vec3f inside = part.camera.direction<float>(0.3f, 0.8f);
+  EXPECT_TRUE(part.camera.project(part.camera.pose<float>(), inside, x, y));
+  EXPECT_NEAR(x, 0.3f, 1e-5f);
+  EXPECT_NEAR(y, 0.8f, 1e-5f);
+  // Seen by the whole film, left of the window.
+  EXPECT_FALSE(part.camera.project(part.camera.pose<float>(),
+                                   whole.camera.direction<float>(0.05f, 0.5f), x, y));
+  ReadOptions half;
+  half.scale = 0.5;
+  const Scene small = folder.read(film(crop), half);
+  EXPECT_EQ(small.film.width, 40);
+  EXPECT_LT(glm::length(small.camera.direction<float>(0.3f, 0.8f) - inside), 1e-6f);
 }
 
 TEST(SceneReader, FieldOfView) {
@@ -183,7 +222,7 @@ TEST(SceneReader, MaterialsAreSharedByReferences) {
   EXPECT_EQ(scene.materials.size(), 2u);  // and the default of the helper's sphere
   EXPECT_EQ(scene.shapes[0].material, scene.shapes[1].material);
   EXPECT_EQ(scene.shapes[0].material, scene.shapes[2].material);
-  EXPECT_EQ(scene.materials[static_cast<std::size_t>(scene.shapes[0].material)].name, "later");
+  EXPECT_EQ(scene.materials[at(scene.shapes[0].material)].name, "later");
   expectColor(reflectance(scene), 0.1f, 0.2f, 0.3f);
   expectColor(reflectance(scene, 3), 0.5f, 0.5f, 0.5f);
 }
@@ -227,13 +266,12 @@ TEST(SceneReader, LightsKnowTheirShapes) {
   EXPECT_EQ(scene.lights.size(), 3u);
   const int light = scene.shapes[1].light;
   ASSERT_GE(light, 0);
-  EXPECT_EQ(std::get<AreaLight>(scene.lights[static_cast<std::size_t>(light)]).shape, 1);
+  EXPECT_EQ(std::get<AreaLight>(scene.lights[at(light)]).shape, 1);
   EXPECT_EQ(scene.shapes[0].light, -1);
   EXPECT_EQ(scene.shapes[2].light, -1);
   EXPECT_TRUE(hasNote(scene, "emits nothing"));
   ASSERT_GE(scene.environment, 0);
-  EXPECT_TRUE(std::holds_alternative<ConstantLight>(
-      scene.lights[static_cast<std::size_t>(scene.environment)]));
+  EXPECT_TRUE(std::holds_alternative<ConstantLight>(scene.lights[at(scene.environment)]));
   // As Mitsuba 0.6: a light that names no BSDF reflects nothing.
   expectColor(reflectance(scene, 1), 0, 0, 0);
   expectColor(reflectance(scene, 0), 0.5f, 0.5f, 0.5f);

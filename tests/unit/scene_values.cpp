@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers, transforms and spectra as they are written in scene files.
 #include <gtest/gtest.h>
 
@@ -13,7 +14,8 @@ Mat4 transform(const std::string& operations) {
   auto file = std::make_shared<SourceFile>();
   file->name = "test.xml";
   file->text = "<transform name=\"toWorld\">" + operations + "</transform>";
-  return readTransform(parseXml(file));
+  std::vector<StrayText> strays;
+  return readTransform(parseXml(file, strays));
 }
 
 void expectPoint(const Mat4& m, const Vec3f& p, const Vec3f& expected, float tolerance = 1e-5f) {
@@ -57,6 +59,12 @@ TEST(SceneTransform, LookAtIsMitsubas) {
   const Mat4 free = transform("<lookAt origin=\"0,0,0\" target=\"0,5,0\"/>");
   expectPoint(free, {0, 0, 1}, {0, 1, 0});
   EXPECT_NEAR(glm::determinant(glm::mat3(free)), 1, 1e-5f);
+}
+
+TEST(SceneValues, BooleansInAnyCase) {
+  EXPECT_TRUE(parseBoolean(" TRUE "));
+  EXPECT_FALSE(parseBoolean("False"));
+  EXPECT_THROW(parseBoolean("yes"), ValueError);
 }
 
 TEST(SceneValues, Numbers) {

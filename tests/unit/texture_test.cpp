@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/texture/texture.h"
 
 #include <gtest/gtest.h>
@@ -94,6 +95,44 @@ TEST(Texture, DifferentiatesWithinATexel) {
       (at(u + h, v + h) - at(u + h, v - h) - at(u - h, v + h) + at(u - h, v - h)) / (4 * h * h),
       1e-5);
   EXPECT_EQ(d.hessian(0, 0), 0);
+}
+
+TEST(Texture, SlopesAreTheDerivatives) {
+  BitmapTexture t = twoByTwo();
+  t.mapping = {{3, 0.5f}, {0.1f, 0.2f}, {0.4f, -0.7f}};
+  const Texture scaled =
+      ProductTexture{constantTexture(Rgbf(0.5f, 2, 3)), std::make_shared<const Texture>(t)};
+  const Texture squared =
+      ProductTexture{std::make_shared<const Texture>(t), std::make_shared<const Texture>(t)};
+  const double u = 0.21, v = 0.37;
+  const Vec2<D> at(D::variable(u, 0), D::variable(v, 1));
+  for (const Texture& texture : {Texture(t), scaled, squared}) {
+    const Rgb<D> d = evaluate<D>(texture, at);
+    const TextureSlope<D> slope = slopeOf<D>(texture, at);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(slope.value[c].v, d[c].v, 1e-12);
+      EXPECT_NEAR(slope.du[c].v, d[c].gradient(0), 1e-12);
+      EXPECT_NEAR(slope.dv[c].v, d[c].gradient(1), 1e-12);
+      EXPECT_NEAR(slope.du[c].gradient(1), d[c].hessian(0, 1), 1e-12);
+      EXPECT_NEAR(slope.dv[c].gradient(1), d[c].hessian(1, 1), 1e-12);
+    }
+  }
+  t.nearest = true;
+  EXPECT_EQ(slopeOf<float>(Texture(t), Vec2f(0.3f)).du, Rgbf(0));
+  EXPECT_EQ(slopeOf<float>(Texture(CheckerboardTexture{}), Vec2f(0.3f)).dv, Rgbf(0));
+}
+
+TEST(Texture, ProductsMultiplyAverageAndMaximum) {
+  const auto board =
+      std::make_shared<const Texture>(CheckerboardTexture{Rgbf(0.8f), Rgbf(0.2f), {}});
+  const ProductTexture scaled{constantTexture(Rgbf(0.5f, 1, 2)), board};
+  EXPECT_EQ(scaled.evaluate<float>(Vec2f(0.1f)), Rgbf(0.4f, 0.8f, 1.6f));
+  EXPECT_EQ(scaled.average(), Rgbf(0.25f, 0.5f, 1));
+  EXPECT_EQ(scaled.maximum(), Rgbf(0.4f, 0.8f, 1.6f));
+  // Of a texture with itself it is not the product of the averages.
+  const ProductTexture twice{board, board};
+  EXPECT_NEAR(twice.average().x, (0.64f + 0.04f) / 2, 1e-5);
+  EXPECT_FLOAT_EQ(twice.maximum().x, 0.64f);
 }
 
 TEST(Texture, ModulateScalesConstantsAndOthersAlike) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Curves in the plane of logarithms.
 
 // 1, 2, 5 times powers of ten within [low, high]; only the powers where there are many.
@@ -44,7 +45,8 @@ function drawChart(figure, scene, metric, x, title, compact) {
   const inside = (y) => Math.min(Math.max(y, y0 / 10), y1 * 10);  // what the clip then cuts
 
   const clip = `clip-${figure.id || "c"}-${x}-${Math.random().toString(36).slice(2)}`;
-  drawing.append(svg("clipPath", { id: clip }, svg("rect", { x: left, y: top, width: W - left - right, height: H - top - bottom })));
+  drawing.append(svg("clipPath", { id: clip },
+    svg("rect", { x: left, y: top, width: W - left - right, height: H - top - bottom })));
   let lastLabel = -Infinity;
   for (const v of logTicks(x0, x1)) {
     drawing.append(svg("line", { class: "grid", x1: px(v), x2: px(v), y1: top, y2: H - bottom }));
@@ -72,24 +74,29 @@ function drawChart(figure, scene, metric, x, title, compact) {
       layer.append(svg("polygon", { points: path, style: `fill:${color(s.index)};opacity:0.13` }));
     } else if (banded.length === 1) {
       const p = banded[0];
-      layer.append(svg("line", { x1: px(p.x), x2: px(p.x), y1: py(inside(p.low)), y2: py(inside(p.high)), style: `stroke:${color(s.index)};opacity:0.4` }));
+      layer.append(svg("line", { x1: px(p.x), x2: px(p.x), y1: py(inside(p.low)), y2: py(inside(p.high)),
+        style: `stroke:${color(s.index)};opacity:0.4` }));
     }
   }
   const summary = scene.summaries.find((m) => m.metric === metric && m.timed === (x === "seconds"));
   for (const s of series) {
-    const fit = summary && summary.methods[s.index], p = fit ? number(fit.p.value) : NaN, logC = fit ? number(fit.logC) : NaN;
+    const fit = summary && summary.methods[s.index];
+    const p = fit ? number(fit.p.value) : NaN, logC = fit ? number(fit.logC) : NaN;
     if (!compact && Number.isFinite(p) && Number.isFinite(logC) && s.curve.length > 2) {
       const at = (t) => inside(Math.exp(logC - p * Math.log(t)));
-      layer.append(svg("line", { x1: px(x0), y1: py(at(x0)), x2: px(x1), y2: py(at(x1)), style: `stroke:${color(s.index)};stroke-dasharray:4 4;opacity:0.55` }));
+      layer.append(svg("line", { x1: px(x0), y1: py(at(x0)), x2: px(x1), y2: py(at(x1)),
+        style: `stroke:${color(s.index)};stroke-dasharray:4 4;opacity:0.55` }));
     }
-    for (const d of s.dots) layer.append(svg("circle", { cx: px(d.x), cy: py(d.y), r: 1.8, style: `fill:${color(s.index)};opacity:0.35` }));
+    for (const d of s.dots) layer.append(svg("circle",
+      { cx: px(d.x), cy: py(d.y), r: 1.8, style: `fill:${color(s.index)};opacity:0.35` }));
     layer.append(svg("polyline", {
       points: s.curve.map((q) => `${px(q.x).toFixed(1)},${py(q.y).toFixed(1)}`).join(" "),
       style: `fill:none;stroke:${color(s.index)};stroke-width:2`,
     }));
     for (const q of s.curve) {
       const dot = svg("circle", { cx: px(q.x), cy: py(q.y), r: compact ? 2.5 : 4, style: `fill:${color(s.index)}` });
-      dot.append(svg("title", {}, `${s.name}: ${short(q.y, 4)} at ${short(q.x, 4)}${x === "seconds" ? " s" : " a pixel"}`));
+      dot.append(svg("title", {},
+        `${s.name}: ${short(q.y, 4)} at ${short(q.x, 4)}${x === "seconds" ? " s" : " a pixel"}`));
       layer.append(dot);
     }
   }
@@ -108,7 +115,8 @@ function legend(drawing, series, box, px, py) {
   const group = svg("g");
   group.append(svg("rect", { x, y, width, height, rx: 4, style: "fill:var(--panel);stroke:var(--line);opacity:0.9" }));
   series.forEach((s, i) => {
-    group.append(svg("rect", { x: x + 8, y: y + 8 + 17 * i, width: 12, height: 4, rx: 2, transform: "translate(0 2)", style: `fill:${color(s.index)}` }));
+    group.append(svg("rect", { x: x + 8, y: y + 8 + 17 * i, width: 12, height: 4, rx: 2, transform: "translate(0 2)",
+      style: `fill:${color(s.index)}` }));
     const name = s.name.length > 34 ? s.name.slice(0, 33) + "…" : s.name;
     group.append(svg("text", { x: x + 27, y: y + 16 + 17 * i, style: "fill:var(--text)" }, name));
   });

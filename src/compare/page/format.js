@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers for people, elements for the page.
 const number = (v) => (v === "inf" ? Infinity : v === null || v === undefined ? NaN : v);
 

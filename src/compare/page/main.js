@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is chosen, and what follows from it.
 const data = JSON.parse(byId("data").textContent);
 byId("data").remove();
@@ -89,8 +90,11 @@ function drawPictures() {
     views = [viewOf(state.picture)];
   }
   const narrow = innerWidth < 700;
-  const columns = views.length === 1 ? 1 : narrow ? Math.min(2, views.length) : views.length === 4 ? 2 : Math.min(3, views.length);
-  byId("views").style.maxWidth = views.length === 1 ? `${Math.max(scene().width, Math.round((innerHeight * 0.75 * scene().width) / scene().height))}px` : "";
+  const columns = views.length === 1 ? 1
+    : narrow ? Math.min(2, views.length)
+    : views.length === 4 ? 2 : Math.min(3, views.length);
+  byId("views").style.maxWidth = views.length === 1
+    ? `${Math.max(scene().width, Math.round((innerHeight * 0.75 * scene().width) / scene().height))}px` : "";
   viewer.show(views.filter(Boolean), scene().width, scene().height, columns);
   drawChips(list);
   drawInsets();
@@ -98,7 +102,8 @@ function drawPictures() {
 
 function drawChips(list) {
   byId("chips").replaceChildren(...[...list, REFERENCE].map((index) => {
-    const chip = element("button", { "data-picture": String(index), "aria-pressed": String(state.mode !== "side" && index === state.picture) });
+    const chip = element("button",
+      { "data-picture": String(index), "aria-pressed": String(state.mode !== "side" && index === state.picture) });
     if (index !== REFERENCE) chip.append(element("span", { class: "key", style: `background:${color(index)}` }));
     chip.append(nameOf(index) + " ", element("kbd", {}, index === REFERENCE ? "r" : String(index + 1)));
     chip.addEventListener("click", () => choosePicture(index));
@@ -128,7 +133,8 @@ function showValues(at) {
   const rows = [...pictures(), REFERENCE].map((index) => {
     const v = values(index), y = luminanceAt(v, k), r = luminanceAt(reference, k);
     const cells = [0, 1, 2].map((c) => element("td", { "data-value": String(v[k + c]) }, short(v[k + c], 4)));
-    const error = index === REFERENCE ? "" : `${y >= r ? "+" : "−"}${short((100 * Math.abs(y - r)) / (Math.abs(r) + offset), 3)} %`;
+    const error = index === REFERENCE ? ""
+      : `${y >= r ? "+" : "−"}${short((100 * Math.abs(y - r)) / (Math.abs(r) + offset), 3)} %`;
     const name = element("td", { class: "text" });
     if (index !== REFERENCE) name.append(element("span", { class: "key", style: `background:${color(index)}` }));
     name.append(nameOf(index));
@@ -136,7 +142,9 @@ function showValues(at) {
       name, ...cells, element("td", {}, short(y, 4)), element("td", {}, error));
   });
   table.replaceChildren(
-    element("thead", {}, element("tr", {}, element("th", { class: "text", "data-x": String(at.x), "data-y": String(at.y) }, `pixel ${at.x}, ${at.y}`),
+    element("thead", {},
+      element("tr", {}, element("th", { class: "text", "data-x": String(at.x), "data-y": String(at.y) },
+        `pixel ${at.x}, ${at.y}`),
       ...["red", "green", "blue", "luminance", "to reference"].map((t) => element("th", {}, t)))),
     element("tbody", {}, ...rows));
 }
@@ -158,12 +166,14 @@ function drawInsets() {
   byId("insets").replaceChildren(...insets[state.scene].map((r) => {
     const row = element("div", { class: "inset" });
     for (const index of [...list, REFERENCE]) {
-      const canvas = element("canvas", { width: size * devicePixelRatio, height: Math.round((size * devicePixelRatio * r.height) / r.width) });
+      const canvas = element("canvas",
+        { width: size * devicePixelRatio, height: Math.round((size * devicePixelRatio * r.height) / r.width) });
       canvas.style.width = `${size}px`;
       const context = canvas.getContext("2d");
       context.imageSmoothingEnabled = false;
       context.drawImage(canvasOf(index), r.x, r.y, r.width, r.height, 0, 0, canvas.width, canvas.height);
-      canvas.title = `${nameOf(index)}, pixels ${r.x}, ${r.y} to ${r.x + r.width}, ${r.y + r.height}; click: look there`;
+      canvas.title = `${nameOf(index)}, pixels ${r.x}, ${r.y} to ${r.x + r.width}, ${r.y + r.height}; ` +
+        `click: look there`;
       canvas.addEventListener("click", () => {
         viewer.scale = Math.min(scene().width / r.width, scene().height / r.height);
         viewer.x = (r.x + r.width / 2) / scene().width;
@@ -220,7 +230,8 @@ function prepareScene() {
   brightness.set(state.scene, meanLuminance(values(REFERENCE)));
   byId("right").replaceChildren(...[REFERENCE, ...list].map((i) => element("option", { value: String(i) }, nameOf(i))));
   if (state.right !== REFERENCE && !list.includes(state.right)) state.right = REFERENCE;
-  const marks = [...new Set(list.flatMap((i) => embedded(scene().methods[i]).map((p) => p.mark)))].sort((a, b) => a - b);
+  const marks = [...new Set(list.flatMap((i) => embedded(scene().methods[i]).map((p) => p.mark)))]
+    .sort((a, b) => a - b);
   const unit = data.plan.timed ? "s" : "a pixel";
   byId("mark").replaceChildren(...marks.map((m) => element("option", { value: String(m) }, `${short(m)} ${unit}`)));
   if (!marks.includes(state.mark)) state.mark = null;
@@ -229,8 +240,11 @@ function prepareScene() {
 }
 
 function update() {
-  const press = (group, key, value) => document.querySelectorAll(`#${group} button`).forEach((b) => b.setAttribute("aria-pressed", String(b.dataset[key] === value)));
-  document.querySelectorAll("#scenes button").forEach((b, i) => b.setAttribute("aria-selected", String(i === state.scene)));
+  const press = (group, key, value) =>
+    document.querySelectorAll(`#${group} button`).forEach((b) =>
+      b.setAttribute("aria-pressed", String(b.dataset[key] === value)));
+  document.querySelectorAll("#scenes button").forEach((b, i) =>
+    b.setAttribute("aria-selected", String(i === state.scene)));
   press("mode", "mode", state.mode);
   press("show", "show", state.show);
   byId("metric").value = state.metric;
@@ -250,13 +264,17 @@ function update() {
 }
 
 function onKey(event) {
-  if (event.ctrlKey || event.altKey || event.metaKey || ["SELECT", "INPUT"].includes(event.target.tagName) && event.key.startsWith("Arrow")) return;
+  if (event.ctrlKey || event.altKey || event.metaKey || ["SELECT", "INPUT"].includes(event.target.tagName)
+    && event.key.startsWith("Arrow")) return;
   const key = event.key;
   if (key >= "1" && key <= "9") choosePicture(Number(key) - 1);
   else if (key === "r") choosePicture(state.picture === REFERENCE ? state.last : REFERENCE);
   else if (key === "ArrowRight") chooseScene(state.scene + 1);
   else if (key === "ArrowLeft") chooseScene(state.scene - 1);
-  else if (key === "e") { state.show = { color: "relative", relative: "signed", signed: "color" }[state.show]; update(); }
+  else if (key === "e") {
+    state.show = { color: "relative", relative: "signed", signed: "color" }[state.show];
+    update();
+  }
   else if (key === "m") { state.mode = { one: "side", side: "slider", slider: "one" }[state.mode]; update(); }
   else if (key === "i") setPicking(!viewer.picking);
   else if (key === "Escape") setPicking(false);
@@ -269,7 +287,9 @@ function onKey(event) {
 
 function start() {
   const marks = data.plan.marks.map((m) => short(m)).join(", ");
-  byId("about").textContent = `${data.machine}, ${data.plan.threads} threads; ${data.plan.repeats} repeats, images at ${marks} ${data.plan.timed ? "s" : "mutations or samples a pixel"}; h2mc ${data.programVersion}`;
+  byId("about").textContent =
+    `${data.machine}, ${data.plan.threads} threads; ${data.plan.repeats} repeats, images at ${marks} ` +
+    `${data.plan.timed ? "s" : "mutations or samples a pixel"}; h2mc ${data.programVersion}`;
   if (data.scenes.length > 1)
     byId("scenes").replaceChildren(...data.scenes.map((s, i) => {
       const tab = element("button", { role: "tab" }, s.name);
@@ -279,9 +299,14 @@ function start() {
   byId("metric").replaceChildren(...data.metrics.map((m) => element("option", {}, m.name)));
   byId("metric").addEventListener("change", (e) => { state.metric = e.target.value; update(); });
   byId("axis").addEventListener("change", (e) => { state.timed = e.target.value === "time"; update(); });
-  document.querySelectorAll("#mode button").forEach((b) => b.addEventListener("click", () => { state.mode = b.dataset.mode; update(); }));
-  document.querySelectorAll("#show button").forEach((b) => b.addEventListener("click", () => { state.show = b.dataset.show; update(); }));
-  byId("exposure").addEventListener("input", (e) => { state.exposure = exposures[state.scene] = Number(e.target.value); update(); });
+  document.querySelectorAll("#mode button").forEach((b) =>
+    b.addEventListener("click", () => { state.mode = b.dataset.mode; update(); }));
+  document.querySelectorAll("#show button").forEach((b) =>
+    b.addEventListener("click", () => { state.show = b.dataset.show; update(); }));
+  byId("exposure").addEventListener("input", (e) => {
+    state.exposure = exposures[state.scene] = Number(e.target.value);
+    update();
+  });
   byId("gamma").addEventListener("input", (e) => { state.gamma = Number(e.target.value); update(); });
   byId("right").addEventListener("change", (e) => { state.right = Number(e.target.value); update(); });
   byId("mark").addEventListener("change", (e) => { state.mark = Number(e.target.value); update(); });
@@ -291,7 +316,9 @@ function start() {
   byId("pick").addEventListener("click", () => setPicking(!viewer.picking));
   document.addEventListener("keydown", onKey);
   const all = data.scenes.some((s) => s.methods.some((m) => embedded(m).length > 1));
-  byId("embedded-text").textContent = `Errors are of luminance, relative to the reference (plus 1 % of its mean): from 0.001, dark, to 1, pale; signed: red where brighter, blue where darker. The pictures are the first repeat's, ${all ? "at every mark" : "at the last mark"}, as half floats (three digits).`;
+  byId("embedded-text").textContent = `Errors are of luminance, relative to the reference (plus 1 % of its mean): ` +
+    `from 0.001, dark, to 1, pale; signed: red where brighter, blue where darker. The pictures are the first ` +
+    `repeat's, ${all ? "at every mark" : "at the last mark"}, as half floats (three digits).`;
   prepareScene();
   update();
   let wide = innerWidth;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pictures: from half floats in base64 to numbers, and from numbers to what is shown.
 const halfValues = (() => {
   const table = new Float32Array(65536);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pictures that move together.
 
 class Viewer {
@@ -84,7 +85,8 @@ class Viewer {
   move(view, event) {
     const at = this.at(view.canvas, event), before = this.pointers.get(event.pointerId);
     if (!before) {
-      view.canvas.style.cursor = view.layers.length === 2 && Math.abs(at.u - this.split) < 0.04 ? "ew-resize" : "crosshair";
+      view.canvas.style.cursor = view.layers.length === 2 && Math.abs(at.u - this.split) < 0.04 ? "ew-resize"
+        : "crosshair";
       this.pixel(at);
       return;
     }

@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: MIT
 // Pictures, walks and the trade-off between step size and acceptance.
 const data = JSON.parse(byId("data").textContent);
 
 function pictureCanvas(pixels) {
   const canvas = element("canvas", { width: data.width, height: data.height });
-  const context = canvas.getContext("2d"), image = context.createImageData(data.width, data.height), text = atob(pixels);
+  const context = canvas.getContext("2d"), text = atob(pixels);
+  const image = context.createImageData(data.width, data.height);
   for (let i = 0, o = 0; i < text.length; i += 3, o += 4) {
     for (let c = 0; c < 3; ++c) image.data[o + c] = text.charCodeAt(i + c);
     image.data[o + 3] = 255;
@@ -40,7 +42,8 @@ const figureOf = (canvas, ...text) => element("figure", {}, canvas, ...text);
 
 function drawOverview(level) {
   byId("overview").replaceChildren(
-    ...data.methods.map((m) => figureOf(pictureCanvas(m.levels[level].pixels), element("b", {}, m.name), ` relmse ${short(m.levels[level].relmse)}`)),
+    ...data.methods.map((m) => figureOf(pictureCanvas(m.levels[level].pixels), element("b", {}, m.name),
+      ` relmse ${short(m.levels[level].relmse)}`)),
     figureOf(pictureCanvas(data.reference), element("b", {}, "the picture")));
 }
 
@@ -60,10 +63,12 @@ function drawSweep(figure, title, key, logarithmic) {
   }
   for (const v of logarithmic ? logTicks(y0, y1) : [0, 0.25, 0.5, 0.75, 1]) {
     drawing.append(svg("line", { class: "grid", x1: left, x2: W - right, y1: py(v), y2: py(v) }));
-    drawing.append(svg("text", { x: left - 6, y: py(v) + 4, "text-anchor": "end" }, logarithmic ? short(v) : percent(v)));
+    drawing.append(svg("text", { x: left - 6, y: py(v) + 4, "text-anchor": "end" },
+      logarithmic ? short(v) : percent(v)));
   }
   drawing.append(svg("rect", { class: "frame", x: left, y: top, width: W - left - right, height: H - top - bottom }));
-  drawing.append(svg("text", { x: (left + W - right) / 2, y: H - 6, "text-anchor": "middle" }, "step size sigma, of the picture's edges"));
+  drawing.append(svg("text", { x: (left + W - right) / 2, y: H - 6, "text-anchor": "middle" },
+    "step size sigma, of the picture's edges"));
   curves.forEach(([name, points, index], i) => {
     const style = `stroke:${color(index)};fill:none;stroke-width:2`;
     drawing.append(svg("polyline", { points: points.map((p) => `${px(p.sigma)},${py(p[key])}`).join(" "), style }));
@@ -89,12 +94,18 @@ byId("methods").replaceChildren(...data.methods.map((m) => {
   const parts = [];
   if (m.largeShare < 1) parts.push(`sigma ${short(m.sigma)}`);
   if (m.largeShare > 0 && m.largeShare < 1) parts.push(`${percent(m.largeShare)} large`);
-  parts.push(`${percent(m.levels[m.levels.length - 1].acceptance)} of the ${m.largeShare < 1 ? "small " : ""}mutations accepted`);
-  return element("section", {}, element("h2", {}, m.name), element("p", { class: "hint" }, `${m.text} (${parts.join(", ")})`),
+  parts.push(`${percent(m.levels[m.levels.length - 1].acceptance)} of the ` +
+    `${m.largeShare < 1 ? "small " : ""}mutations accepted`);
+  return element("section", {}, element("h2", {}, m.name),
+    element("p", { class: "hint" }, `${m.text} (${parts.join(", ")})`),
     element("div", { class: "row" },
-      ...m.levels.map((l) => figureOf(pictureCanvas(l.pixels), element("b", {}, `${l.perPixel} a pixel`), ` relmse ${short(l.relmse)}`)),
+      ...m.levels.map((l) => figureOf(pictureCanvas(l.pixels), element("b", {}, `${l.perPixel} a pixel`),
+        ` relmse ${short(l.relmse)}`)),
       figureOf(walkCanvas(m), element("b", {}, `the first ${m.walk.length} states`))));
 }));
 drawSweep(byId("acceptance"), "Acceptance of small mutations", "acceptance", false);
 drawSweep(byId("error"), `Error (relmse) at ${data.sweepPerPixel} mutations a pixel`, "relmse", true);
-byId("sweep-text").textContent = `Each with ${percent(data.largeShare)} large mutations. Tiny steps are nearly always accepted and go nowhere; huge ones are nearly always rejected. For Hessian-Hamiltonian proposals sigma is only the prior's: where the luminance is curved they are narrower of their own accord, across edges more than along them. How much that gains depends on the picture: most where what is bright is long and narrow.`;
+byId("sweep-text").textContent = `Each with ${percent(data.largeShare)} large mutations. Tiny steps are nearly ` +
+  `always accepted and go nowhere; huge ones are nearly always rejected. For Hessian-Hamiltonian proposals sigma is ` +
+  `only the prior's: where the luminance is curved they are narrower of their own accord, across edges more than ` +
+  `along them. How much that gains depends on the picture: most where what is bright is long and narrow.`;

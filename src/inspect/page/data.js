@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the program has computed, decoded.
 const data = JSON.parse(byId("data").textContent);
 const model = data.model;
@@ -26,7 +27,8 @@ function sliceOf(pair, view) {
     // The brightest neighbour sets the scale.
     slice.brightest = 0;
     for (let i = 0; i < slice.values.length; ++i)
-      if (slice.kinds[i] !== CELL.dark && slice.kinds[i] !== CELL.outside) slice.brightest = Math.max(slice.brightest, slice.values[i]);
+      if (slice.kinds[i] !== CELL.dark && slice.kinds[i] !== CELL.outside)
+        slice.brightest = Math.max(slice.brightest, slice.values[i]);
   }
   return slice;
 }

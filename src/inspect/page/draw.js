@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Plots on canvases, in the page's colours.
 const RAMP = [[15, 16, 48], [65, 33, 122], [146, 48, 127], [219, 79, 98], [251, 155, 92], [253, 243, 192]];
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -50,10 +51,12 @@ function shade(slice, options, valueAt) {
   return canvas;
 }
 
-const targetImage = (slice, options) => shade(slice, options, (column, row, i) => ({ value: slice.values[i], kind: slice.kinds[i] }));
+const targetImage = (slice, options) =>
+  shade(slice, options, (column, row, i) => ({ value: slice.values[i], kind: slice.kinds[i] }));
 function quadraticImage(slice, options, quadratic) {
   const n = slice.resolution, at = (k) => (2 * k + 1) / n - 1;
-  return shade(slice, options, (column, row) => ({ value: quadratic(slice.halfX * at(column), -slice.halfY * at(row)), kind: CELL.same }));
+  return shade(slice, options, (column, row) =>
+    ({ value: quadratic(slice.halfX * at(column), -slice.halfY * at(row)), kind: CELL.same }));
 }
 
 // Lines between cells of different topology.

@@ -1,13 +1,20 @@
+// SPDX-License-Identifier: MIT
 // The page's controls, and what they show.
 const state = { pair: 0, view: "wide", decades: 4, topology: true, cursor: null };
 const percent = (v) => `${short(100 * v)} %`;
 const plots = [];  // what is redrawn: { canvas, draw }
 
 const KIND_TEXT = {
-  large: "Starts afresh, wherever the state is. Seldom accepted where the target is large, but the only way to somewhere quite different.",
-  lens: "Moves the film position, follows narrow lobes, and reconnects as soon as it can: a move along what leaves the path intact, by its geometry.",
-  isotropic: "The same small step in all coordinates. Where the target is narrow in only one direction, nearly all of them miss it.",
-  "hessian-hamiltonian": !model.available ? "There are no derivatives at this path: drawn from the prior, a round Gaussian." : "Drawn from the Gaussian that gradient and Hessian give: short where the target is curved, as long as the prior allows where it is flat.",
+  large: "Starts afresh, wherever the state is. Seldom accepted where the target is large, but the only way to " +
+    "somewhere quite different.",
+  lens: "Moves the film position, follows narrow lobes, and reconnects as soon as it can: a move along what leaves " +
+    "the path intact, by its geometry.",
+  isotropic: "The same small step in all coordinates. Where the target is narrow in only one direction, nearly all " +
+    "of them miss it.",
+  "hamiltonian": !model.available
+    ? "There are no derivatives at this path: drawn from the prior, a round Gaussian."
+    : "Drawn from the Gaussian that gradient and Hessian give: short where the target is curved, as long as the " +
+      "prior allows where it is flat.",
 };
 
 // What a coordinate decides, by the layout of primary samples: the camera's come first.
@@ -47,17 +54,23 @@ function describePath() {
   const path = data.path, [x, y] = data.pixel;
   document.title = `h2mc inspect: ${data.scene}, pixel ${x},${y}`;
   byId("title").textContent = `A path through pixel ${x}, ${y} of ${data.scene}`;
-  byId("about").textContent = `${data.width} × ${data.height} pixels; ${data.integrator}; seed ${data.seed}; h2mc ${data.programVersion}`;
+  byId("about").textContent =
+    `${data.width} × ${data.height} pixels; ${data.integrator}; seed ${data.seed}; h2mc ${data.programVersion}`;
   byId("dimension").textContent = String(model.dimension);
   // The edge by which the two subpaths are joined; with s = 0 the camera's own path has hit the light.
-  byId("vertices").replaceChildren(...path.vertices.map((name, i) => element("li", { class: path.s > 0 && i === path.t ? "joined" : "" }, name)));
+  byId("vertices").replaceChildren(...path.vertices.map((name, i) =>
+    element("li", { class: path.s > 0 && i === path.t ? "joined" : "" }, name)));
   const search = path.search, origin = {
-    chain: `a state of a chain that was confined to the pixel, ${search.mutations} mutations after its start (${percent(search.accepted)} of them accepted)`,
+    chain: `a state of a chain that was confined to the ` +
+      `pixel, ${search.mutations} mutations after its start (${percent(search.accepted)} of them accepted)`,
     largest: "the largest target of all paths that were met there",
     given: "given by --replay",
   }[path.choice];
-  byId("path-text").textContent = `${path.edges} edges; ${path.s === 0 ? "traced from the camera alone" : `${path.s} ${path.s === 1 ? "vertex" : "vertices"} from the light and ${path.t} from the camera`}` +
-    `${path.s > 0 ? ", joined along the dashed edge" : ""} (s = ${path.s}, t = ${path.t}). Target ${short(path.target)}. Chosen: ${origin}.`;
+  const ends = path.s === 0 ? "traced from the camera alone"
+    : `${path.s} ${path.s === 1 ? "vertex" : "vertices"} from the light and ${path.t} from the camera, ` +
+      `joined along the dashed edge`;
+  byId("path-text").textContent = `${path.edges} edges; ${ends} (s = ${path.s}, t = ${path.t}). ` +
+    `Target ${short(path.target)}. Chosen: ${origin}.`;
   byId("replay").textContent = path.text;
   byId("film-text").textContent = "+ where the path is on the film.";
 }
@@ -72,8 +85,10 @@ function readout() {
   const n = slice.resolution, cell = (v, half) => Math.min(Math.max(Math.floor((n * (v / half + 1)) / 2), 0), n - 1);
   const i = (n - 1 - cell(cursor.y, slice.halfY)) * n + cell(cursor.x, slice.halfX), kind = slice.kinds[i];
   const found = kind === CELL.dark ? "no light" : kind === CELL.outside ? "outside of the primary space"
-    : `target ${short(Math.exp(slice.values[i]))} times that of the path${["", "", ", on another triangle", ", another shape, lobe or light"][kind]}`;
-  const quadratic = model.available ? `; quadratic ${short(Math.exp(quadraticIn(directionOf(pair.x), directionOf(pair.y))(cursor.x, cursor.y)))}` : "";
+    : `target ${short(Math.exp(slice.values[i]))} times that of the path` +
+      ["", "", ", on another triangle", ", another shape, lobe or light"][kind];
+  const quadratic = model.available
+    ? `; quadratic ${short(Math.exp(quadraticIn(directionOf(pair.x), directionOf(pair.y))(cursor.x, cursor.y)))}` : "";
   byId("readout").textContent = `${pair.x} ${short(cursor.x)}, ${pair.y} ${short(cursor.y)}: ${found}${quadratic}`;
 }
 
@@ -99,16 +114,20 @@ function redraw() {
   const scene = sceneOf(state.pair, state.view, state.decades), { pair, slice } = scene;
   for (const plot of plots) plot.draw(scene);
 
-  for (const button of byId("view").children) button.setAttribute("aria-pressed", String(button.dataset.view === state.view));
+  for (const button of byId("view").children)
+    button.setAttribute("aria-pressed", String(button.dataset.view === state.view));
   byId("pair").value = String(state.pair);
   byId("decades").value = String(state.decades);
   byId("decades-text").textContent = `${state.decades} decade${state.decades > 1 ? "s" : ""}`;
   byId("view-text").textContent = (state.view === "wide"
-    ? `Wide: both edges are ${short(2 * slice.halfX)} long, isotropic steps have a standard deviation of ${short(model.sigma)}.`
+    ? `Wide: both edges are ${short(2 * slice.halfX)} long, isotropic steps have a standard deviation ` +
+      `of ${short(model.sigma)}.`
     : `Close up: each edge has a scale of its own, about eight standard deviations of the Gaussian along it.`) +
     " All other coordinates are those of the path, which is the +.";
-  byId("ramp-labels").replaceChildren(...[0, 0.5, 1].map((t) => element("span", {}, short(Math.exp(slice.brightest) * 10 ** ((t - 1) * state.decades), 2).replace(".0e", "e"))));
-  for (const row of byId("eigen").querySelectorAll("tbody tr")) row.className = [pair.x, pair.y].includes(row.dataset.name) ? "shown" : "";
+  byId("ramp-labels").replaceChildren(...[0, 0.5, 1].map((t) =>
+    element("span", {}, short(Math.exp(slice.brightest) * 10 ** ((t - 1) * state.decades), 2).replace(".0e", "e"))));
+  for (const row of byId("eigen").querySelectorAll("tbody tr"))
+    row.className = [pair.x, pair.y].includes(row.dataset.name) ? "shown" : "";
   readout();
 }
 
@@ -119,7 +138,8 @@ function movable(canvas) {
     redraw();
   };
   canvas.addEventListener("pointermove", (e) => {
-    const slice = sliceOf(chosenPair(), state.view), box = canvas.getBoundingClientRect(), frame = frameOf(box.width, slice);
+    const slice = sliceOf(chosenPair(), state.view), box = canvas.getBoundingClientRect();
+    const frame = frameOf(box.width, slice);
     const x = frame.x(e.clientX - box.left), y = frame.y(e.clientY - box.top);
     moveTo(Math.abs(x) <= slice.halfX && Math.abs(y) <= slice.halfY ? { x, y } : null);
   });
@@ -128,7 +148,8 @@ function movable(canvas) {
     const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[e.key];
     if (!step) return;
     e.preventDefault();
-    const slice = sliceOf(chosenPair(), state.view), at = state.cursor || { x: 0, y: 0 }, length = (e.shiftKey ? 20 : 2) / slice.resolution;
+    const slice = sliceOf(chosenPair(), state.view), at = state.cursor || { x: 0, y: 0 };
+    const length = (e.shiftKey ? 20 : 2) / slice.resolution;
     const moved = (v, k, half) => Math.min(Math.max(v + k * length * half, -half), half);
     moveTo({ x: moved(at.x, step[0], slice.halfX), y: moved(at.y, step[1], slice.halfY) });
   });
@@ -136,32 +157,41 @@ function movable(canvas) {
 
 function addPlot(parent, title, note, text, draw) {
   const canvas = element("canvas", { role: "img", "aria-label": title });
-  parent.append(element("figure", {}, element("figcaption", {}, element("b", {}, title, element("span", {}, note)), text), canvas));
+  parent.append(element("figure", {},
+    element("figcaption", {}, element("b", {}, title, element("span", {}, note)), text), canvas));
   plots.push({ canvas, draw: (scene) => draw(canvas, scene) });
   return canvas;
 }
 
 function makeLandscapes() {
   const area = byId("landscapes");
-  movable(addPlot(area, "The target", "", "What is really there, by tracing each neighbour: ridges, edges of shadows, other triangles.",
+  movable(addPlot(area, "The target", "",
+    "What is really there, by tracing each neighbour: ridges, edges of shadows, other triangles.",
     (canvas, s) => drawPlot(canvas, s.pair, s.slice, s.bright, () => {}, state.cursor, state.topology)));
   if (model.available) {
-    movable(addPlot(area, "Its quadratic approximation", "", "What gradient and Hessian at the path know of it, with the Gaussian that Hamiltonian dynamics on it gives.",
+    movable(addPlot(area, "Its quadratic approximation", "",
+      "What gradient and Hessian at the path know of it, with the Gaussian that Hamiltonian dynamics on it gives.",
       (canvas, s) => drawPlot(canvas, s.pair, s.slice, s.quadratic, s.ellipses, state.cursor, false)));
   } else {
-    area.append(element("p", { class: "hint" }, `There is no quadratic approximation at this path: ${model.reason}. The chain takes steps from the prior instead.`));
+    area.append(element("p", { class: "hint" }, `There is no quadratic approximation at this ` +
+      `path: ${model.reason}. The chain takes steps from the prior instead.`));
   }
 }
 
 function makeKinds() {
-  byId("proposals-text").textContent = `${data.kinds.length ? data.kinds[0].count : 0} proposals of each kind from this path, over the target in the plane above. They differ from the path in all coordinates, and only their projection is drawn: one that lies on the ridge here may miss it in another plane.`;
+  byId("proposals-text").textContent = `${data.kinds.length ? data.kinds[0].count : 0} proposals of each kind from ` +
+    `this path, over the target in the plane above. They differ from the path in all coordinates, and only their ` +
+    `projection is drawn: one that lies on the ridge here may miss it in another plane.`;
   for (const kind of data.kinds) {
     const note = ` · ${percent(kind.acceptance)} accepted`;
     if (kind.name === "large") {
       const points = [];
       for (let k = 0; k < kind.count; ++k)
-        if (kind.filmAt[2 * k] >= 0) points.push({ x: kind.filmAt[2 * k], y: kind.filmAt[2 * k + 1], accepted: kind.accepted[k] });
-      addPlot(byId("kinds"), kind.name, note, `${KIND_TEXT.large} Drawn on the film: ${kind.otherTechnique} of them went to other techniques, ${kind.count - points.length} found nothing.`,
+        if (kind.filmAt[2 * k] >= 0)
+          points.push({ x: kind.filmAt[2 * k], y: kind.filmAt[2 * k + 1], accepted: kind.accepted[k] });
+      addPlot(byId("kinds"), kind.name, note,
+        `${KIND_TEXT.large} Drawn on the film: ${kind.otherTechnique} of them went to other techniques, ` +
+        `${kind.count - points.length} found nothing.`,
         (canvas) => drawFilm(canvas, points, picture));
       continue;
     }
@@ -169,9 +199,10 @@ function makeKinds() {
     movable(addPlot(byId("kinds"), kind.name, note, text, (canvas, s) => {
       const points = s.points.get(kind);
       const beyond = points.filter((p) => Math.abs(p.x) > s.slice.halfX || Math.abs(p.y) > s.slice.halfY).length;
-      text.textContent = `${KIND_TEXT[kind.name] || ""} ${kind.dark} found no light` + (beyond ? `; ${beyond} lie beyond the plot.` : ".");
+      text.textContent = `${KIND_TEXT[kind.name] || ""} ${kind.dark} found no light` +
+        (beyond ? `; ${beyond} lie beyond the plot.` : ".");
       drawPlot(canvas, s.pair, s.slice, s.dim, (context, frame) => {
-        if (kind.name === "hessian-hamiltonian") s.ellipses(context, frame);
+        if (kind.name === "hamiltonian") s.ellipses(context, frame);
         for (const wanted of [0, 1])
           for (const p of points) if (p.accepted === wanted) drawPoint(context, frame.px(p.x), frame.py(p.y), wanted);
       }, state.cursor, state.topology);
@@ -183,27 +214,37 @@ function makeTables() {
   const cells = (tag, values) => values.map((v) => element(tag, {}, v));
   const shown = data.kinds.filter((kind) => kind.name !== "large");
   byId("eigen-text").textContent = model.available
-    ? "By the size of the eigenvalue. Length: 1 / √|eigenvalue|, over which the curvature alone changes the target by a factor of √e. Deviation and drift: of the Hamiltonian Gaussian along it. Jumps: how far the accepted proposals of each mutation get along it."
+    ? "By the size of the eigenvalue. Length: 1 / √|eigenvalue|, over which the curvature alone changes the target " +
+      "by a factor of √e. Deviation and drift: of the Hamiltonian Gaussian along it. Jumps: how far the accepted " +
+      "proposals of each mutation get along it."
     : `Not available: ${model.reason}.`;
   if (model.available) {
     byId("eigen").replaceChildren(
-      element("thead", {}, element("tr", {}, ...cells("th", ["", "eigenvalue", "length", "slope", "deviation", "drift", ...shown.map((k) => `${k.name} jump`)]))),
+      element("thead", {},
+        element("tr", {}, ...cells("th",
+          ["", "eigenvalue", "length", "slope", "deviation", "drift", ...shown.map((k) => `${k.name} jump`)]))),
       element("tbody", {}, ...model.eigen.map((e, i) => element("tr", { "data-name": e.name },
-        ...cells("td", [e.name, short(e.value), short(1 / Math.sqrt(Math.abs(e.value))), short(e.slope), short(e.deviation), short(e.mean), ...shown.map((k) => short(k.jumpAlong[i]))])))));
+        ...cells("td", [e.name, short(e.value), short(1 / Math.sqrt(Math.abs(e.value))), short(e.slope),
+          short(e.deviation), short(e.mean), ...shown.map((k) => short(k.jumpAlong[i]))])))));
   }
   byId("mutations").replaceChildren(
-    element("thead", {}, element("tr", {}, ...cells("th", ["mutation", "proposals", "acceptance", "jump", "jump on the film, pixels", "no light", "elsewhere"]))),
+    element("thead", {},
+      element("tr", {}, ...cells("th",
+        ["mutation", "proposals", "acceptance", "jump", "jump on the film, pixels", "no light", "elsewhere"]))),
     element("tbody", {}, ...data.kinds.map((k) => element("tr", {},
-      ...cells("td", [k.name, String(k.count), percent(k.acceptance), short(k.jump), short(k.filmJump), String(k.dark), String(k.otherTechnique)])))));
+      ...cells("td", [k.name, String(k.count), percent(k.acceptance), short(k.jump), short(k.filmJump), String(k.dark),
+        String(k.otherTechnique)])))));
 }
 
 function makeLegend() {
   byId("ramp").style.background = `linear-gradient(90deg, ${RAMP.map((c) => `rgb(${c.join()})`).join()})`;
-  const entries = [["dark", "no light: something is in the way, or the path leaves"], ["outside", "outside of the primary space"],
+  const entries = [["dark", "no light: something is in the way, or the path leaves"],
+    ["outside", "outside of the primary space"],
     ["other", "another shape, lobe or light begins (faint: another triangle): what the derivative can't see"],
     ["accepted", "accepted"], ["rejected", "rejected"]];
   if (model.available) entries.push(["gaussian", "the Gaussian, one and two standard deviations"]);
-  byId("legend").replaceChildren(...entries.map(([name, text]) => element("li", {}, element("span", { class: `swatch ${name}` }), text)));
+  byId("legend").replaceChildren(...entries.map(([name, text]) =>
+    element("li", {}, element("span", { class: `swatch ${name}` }), text)));
 }
 
 function makeControls() {
@@ -214,7 +255,8 @@ function makeControls() {
   };
   byId("pair").replaceChildren(...data.pairs.map((pair, i) => element("option", { value: String(i) }, pairText(pair))));
   byId("pair").addEventListener("change", (e) => change({ pair: Number(e.target.value) }));
-  for (const button of byId("view").children) button.addEventListener("click", () => change({ view: button.dataset.view }));
+  for (const button of byId("view").children)
+    button.addEventListener("click", () => change({ view: button.dataset.view }));
   byId("decades").addEventListener("input", (e) => change({ decades: Number(e.target.value) }));
   byId("topology").addEventListener("change", (e) => change({ topology: e.target.checked }));
   document.addEventListener("keydown", (e) => {

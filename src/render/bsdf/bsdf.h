@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // BSDFs: how a surface scatters light, in the shading frame (z = the shading normal).
 //
 // Directions point away from the surface. `wi` is the direction towards the camera side of the path
@@ -6,6 +7,7 @@
 // sampling density from `pdfReverse`.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <variant>
@@ -14,6 +16,7 @@
 #include "render/bsdf/conductor.h"
 #include "render/bsdf/dielectric.h"
 #include "render/bsdf/diffuse.h"
+#include "render/bsdf/further_bsdf.h"
 #include "render/bsdf/phong.h"
 #include "render/bsdf/plastic.h"
 #include "render/bsdf/rough_conductor.h"
@@ -69,7 +72,34 @@ namespace h2mc {
 //   float width(int lobe);
 //   Rgbf albedo();                           // rough estimate, for statistics and `h2mc info`
 using Bsdf = std::variant<Diffuse, Phong, RoughConductor, RoughDielectric, Conductor, Dielectric,
-                          Plastic, RoughPlastic>;
+                          Plastic, RoughPlastic, FurtherBsdf>;
+
+struct Material;
+
+// Two materials by shares: scale ((1 - w) first + w second), w in [0, 1] by texture. More than two are a
+// chain of these. Neither has an opacity or a frame map.
+struct Blend {
+  std::shared_ptr<const Material> first, second;
+  TexturePtr weight;
+  float scale = 1;
+
+  template <class T>
+  T weightAt(const Vec2<T>& uv) const {
+    return ad::clamp(scalarOf(evaluate<T>(*weight, uv)), Scalar<T>(0), Scalar<T>(1));
+  }
+};
+
+// How the shading frame follows from the surface's (render/path/frame_map.h).
+struct FrameMap {
+  enum class Kind : std::uint8_t {
+    kTangent,  // along dp/du, for what is not the same in all directions
+    kBump,     // by a height, in the world's units, along the normal
+    kNormal    // by a normal, 2 rgb - 1, in the frame of normal and dp/du
+  };
+  Kind kind = Kind::kTangent;
+  TexturePtr texture;    // of kBump and kNormal
+  bool perSide = false;  // seen from behind, heights point to where they are seen from as well
+};
 
 // A surface's material: one BSDF a side, and an opacity. `twosided` is front == back.
 struct Material {
@@ -79,14 +109,16 @@ struct Material {
   int back = -1;       // for wi.z < 0; -1: no twosided, the front BSDF sees wi.z < 0 itself
   bool twosided = false;
   TexturePtr opacity;  // null: opaque. Otherwise the share of light that meets the BSDF
+  std::shared_ptr<const Blend> blend;     // if there is one, front, back and twosided say nothing
+  std::shared_ptr<const FrameMap> frame;  // null: the surface's own
 };
 
-// Every BSDF a scene file can name. twosided and mask, which make no BSDF of their own, are read by
-// the scene reader, their tables are here too.
+// Every BSDF a scene file can name. twosided, mask, blends and maps, which make no BSDF of their own,
+// are read by the scene reader, their tables are here too.
 struct BsdfPlugin {
   std::string_view name, description;
   std::span<const Parameter> parameters;
-  Bsdf (*create)(const Properties&);  // null for twosided and mask
+  Bsdf (*create)(const Properties&);  // null for what makes no BSDF of its own
   int nestedBsdfs = 0;
 };
 std::span<const BsdfPlugin> bsdfPlugins();

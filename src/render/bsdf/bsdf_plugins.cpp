@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: MIT
 // The table of BSDFs and how each is made from a scene's parameters. Names, defaults and meaning are
 // Mitsuba 0.6's.
 #include <charconv>
+#include <numbers>
 
-#include "render/bsdf/bsdf.h"
+#include "render/bsdf/material.h"
 #include "render/bsdf/refractive_index.h"
 #include "render/scene/properties.h"
 
@@ -18,9 +20,11 @@ constexpr Parameter kSpecular = {"specularReflectance", kTexture, "1", "factor o
 constexpr Parameter kTransmittance = {"specularTransmittance", kTexture, "1",
                                       "factor of the transmission"};
 constexpr Parameter kDistribution = {"distribution", kString, "beckmann", "of the facets' normals",
-                                     "beckmann|ggx"};
+                                     "beckmann|ggx|phong"};
 constexpr Parameter kAlpha = {"alpha", kNumber, "0.1",
                               "roughness: the facets' root mean square slope"};
+constexpr Parameter kTexturedAlpha = {"alpha", kTexture, "0.1",
+                                      "roughness: the facets' root mean square slope"};
 constexpr Parameter kAlphaU = {"alphaU", kNumber, "0.1", "roughness along u, the same as along v"};
 constexpr Parameter kAlphaV = {"alphaV", kNumber, "0.1", "roughness along v, the same as along u"};
 constexpr Parameter kSampleVisible = {"sampleVisible",
@@ -39,8 +43,11 @@ constexpr Parameter kPlasticIndex = {
     "",       "int_ior"};
 constexpr Parameter kMaterialName = {"material", kString, "Cu",
                                      "a metal's name, or none: reflects everything"};
-constexpr Parameter kEta = {"eta", kColor, "", "refractive index; the material's by default"};
-constexpr Parameter kK = {"k", kColor, "", "extinction coefficient; the material's by default"};
+constexpr bool kMayBeNegative = true;  // measured channels dip below zero
+constexpr Parameter kEta = {"eta", kColor, "",    "refractive index; the material's by default",
+                            "",    "",     false, kMayBeNegative};
+constexpr Parameter kK = {"k", kColor, "",    "extinction coefficient; the material's by default",
+                          "",  "",     false, kMayBeNegative};
 constexpr Parameter kExteriorEta = {"extEta", kString, "air",
                                     "refractive index outside: a number or a name"};
 constexpr Parameter kNonlinear = {"nonlinear", kBoolean, "false",
@@ -58,13 +65,13 @@ constexpr Parameter kPhongParameters[] = {
 constexpr Parameter kConductorParameters[] = {kMaterialName, kEta,      kK,
                                               kExteriorEta,  kSpecular, kConserve};
 constexpr Parameter kRoughConductorParameters[] = {
-    kDistribution, kAlpha,    kAlphaU,        kAlphaV,  kMaterialName, kEta, kK,
-    kExteriorEta,  kSpecular, kSampleVisible, kConserve};
+    kDistribution, kTexturedAlpha, kAlphaU,        kAlphaV,  kMaterialName, kEta, kK,
+    kExteriorEta,  kSpecular,      kSampleVisible, kConserve};
 constexpr Parameter kDielectricParameters[] = {kGlassIndex, kExteriorIndex, kSpecular,
                                                kTransmittance, kConserve};
 constexpr Parameter kRoughDielectricParameters[] = {
-    kDistribution,  kAlpha,    kAlphaU,        kAlphaV,        kGlassIndex,
-    kExteriorIndex, kSpecular, kTransmittance, kSampleVisible, kConserve};
+    kDistribution,  kTexturedAlpha, kAlphaU,        kAlphaV,        kGlassIndex,
+    kExteriorIndex, kSpecular,      kTransmittance, kSampleVisible, kConserve};
 constexpr Parameter kPlasticParameters[] = {kPlasticIndex, kExteriorIndex, kDiffuseReflectance,
                                             kSpecular,     kNonlinear,     kConserve};
 constexpr Parameter kRoughPlasticParameters[] = {
@@ -73,6 +80,34 @@ constexpr Parameter kRoughPlasticParameters[] = {
 constexpr Parameter kMaskParameters[] = {
     {"opacity", kTexture, "0.5", "share of light that meets the nested BSDF; the rest goes on"},
     kConserve};
+
+constexpr Parameter kThinDielectricParameters[] = {kGlassIndex, kExteriorIndex, kSpecular,
+                                                   kTransmittance, kConserve};
+constexpr Parameter kDiffuseTransmitterParameters[] = {
+    {"transmittance", kTexture, "0.5", "diffuse transmittance"}, kConserve};
+constexpr Parameter kRoughDiffuseParameters[] = {
+    {"reflectance", kTexture, "0.5", "diffuse reflectance", "", "diffuseReflectance"},
+    {"alpha", kNumber, "0.2", "roughness: root 2 times the facets' standard deviation in radians"},
+    {"useFastApprox", kBoolean, "false", "the approximation that the authors give"},
+    kConserve};
+constexpr Parameter kWardParameters[] = {
+    {"variant", kString, "balanced", "how the lobe is normalised", "ward|ward-duer|balanced"},
+    {"alphaU", kNumber, "0.1", "roughness along u"},
+    {"alphaV", kNumber, "0.1", "roughness along v"},
+    kDiffuseReflectance,
+    {"specularReflectance", kTexture, "0.2", "reflectance of the glossy part"},
+    kConserve};
+constexpr Parameter kBumpParameters[] = {
+    {"texture", kTexture, "", "the height, by its luminance, in the scene's units", "", "", false,
+     true, true},
+    {"scale", kNumber, "1", "factor of the height"}};
+constexpr Parameter kNormalParameters[] = {
+    {"texture", kTexture, "", "the normals as 2 rgb - 1: along dp/du, across it, outwards", "",
+     "normalmap", false, false, true}};
+constexpr Parameter kBlendParameters[] = {
+    {"weight", kTexture, "0.5", "share of the second bsdf; the first has the rest"}};
+constexpr Parameter kMixtureParameters[] = {
+    {"weights", kString, "", "one a bsdf; what a sum below 1 lacks is black"}, kConserve};
 
 float largest(const Rgbf& c) { return std::max({c.x, c.y, c.z}); }
 
@@ -109,20 +144,31 @@ float relativeIndex(const Properties& p, bool mustDiffer) {
 float roughness(const Properties& p, std::string_view name) {
   const float alpha = p.number(name);
   if (!(alpha >= 0)) p.fail(name, "a roughness must not be negative");
-  return std::max(alpha, 1e-4f);
+  return std::max(alpha, kSmallestRoughness);
 }
 
-Microfacet readFacets(const Properties& p, bool anisotropic) {
-  Microfacet facets;
-  if (p.string("distribution") == "ggx") facets.distribution = FacetDistribution::kGgx;
-  facets.alpha = roughness(p, "alpha");
-  if (anisotropic && (p.given("alphaU") || p.given("alphaV"))) {
+FacetDistribution readDistribution(const Properties& p) {
+  const std::string name = p.string("distribution");
+  if (name == "ggx") return FacetDistribution::kGgx;
+  return name == "phong" ? FacetDistribution::kPhong : FacetDistribution::kBeckmann;
+}
+
+void readFacets(const Properties& p, FacetSurface& b) {
+  b.facets.distribution = readDistribution(p);
+  if (p.given("alphaU") || p.given("alphaV")) {
     if (p.given("alpha")) p.fail("alpha", "give either alpha, or alphaU and alphaV");
-    facets.alpha = roughness(p, "alphaU");
-    if (facets.alpha != roughness(p, "alphaV"))
+    b.facets.alpha = roughness(p, "alphaU");
+    if (b.facets.alpha != roughness(p, "alphaV"))
       p.fail("alphaV", "anisotropic roughness is not supported: alphaU and alphaV must be equal");
+    return;
   }
-  return facets;
+  const TexturePtr alpha = p.texture("alpha");
+  const Rgbf mean = average(*alpha);
+  // One number is to stay the same number.
+  const float value = mean.x == mean.y && mean.x == mean.z ? mean.x : scalarOf(mean);
+  if (!(value >= 0)) p.fail("alpha", "a roughness must not be negative");
+  b.facets.alpha = std::max(value, kSmallestRoughness);
+  if (!std::holds_alternative<ConstantTexture>(*alpha)) b.roughness = alpha;
 }
 
 ConductorIndex readConductor(const Properties& p) {
@@ -134,8 +180,9 @@ ConductorIndex readConductor(const Properties& p) {
   } else if (name != "none" && name != "None") {
     p.fail("material", "unknown material \"" + name + "\"; there are " + conductorNames());
   }
-  if (p.given("eta")) eta = p.color("eta");
-  if (p.given("k")) k = p.color("k");
+  // Reflectance depends on their squares alone.
+  if (p.given("eta")) eta = glm::abs(p.color("eta"));
+  if (p.given("k")) k = glm::abs(p.color("k"));
   const float outside = refractiveIndex(p, "extEta");
   return {eta / outside, k / outside, eta == Rgbf(0)};
 }
@@ -174,7 +221,7 @@ Bsdf createConductor(const Properties& p) {
 
 Bsdf createRoughConductor(const Properties& p) {
   RoughConductor b;
-  b.facets = readFacets(p, true);
+  readFacets(p, b);
   b.index = readConductor(p);
   b.specular = p.texture("specularReflectance");
   b.scale = energyScale(p, maximum(*b.specular));
@@ -198,7 +245,7 @@ Bsdf createDielectric(const Properties& p) {
 
 Bsdf createRoughDielectric(const Properties& p) {
   RoughDielectric b;
-  b.facets = readFacets(p, true);
+  readFacets(p, b);
   b.eta = relativeIndex(p, true);
   readInterface(p, b);
   return b;
@@ -224,27 +271,79 @@ Bsdf createPlastic(const Properties& p) {
 
 Bsdf createRoughPlastic(const Properties& p) {
   RoughPlastic b;
-  b.facets = readFacets(p, false);
+  b.facets = {readDistribution(p), roughness(p, "alpha")};
   b.eta = relativeIndex(p, true);
   b.transmittance = RoughTransmittance::shared(b.facets, b.eta);
   readCoat(p, b, b.transmittance->internalReflectance());
   return b;
 }
 
+Bsdf createThinDielectric(const Properties& p) {
+  ThinDielectric b;
+  b.eta = relativeIndex(p, false);
+  readInterface(p, b);
+  return FurtherBsdf{b};
+}
+
+Bsdf createDiffuseTransmitter(const Properties& p) {
+  DiffuseTransmitter b;
+  b.transmittance = p.texture("transmittance");
+  b.scale = energyScale(p, maximum(*b.transmittance));
+  return FurtherBsdf{b};
+}
+
+Bsdf createRoughDiffuse(const Properties& p) {
+  RoughDiffuse b;
+  b.reflectance = p.texture("reflectance");
+  b.scale = energyScale(p, maximum(*b.reflectance));
+  const float alpha = p.number("alpha");
+  if (!(alpha >= 0)) p.fail("alpha", "a roughness must not be negative");
+  b.sigma = alpha * std::numbers::sqrt2_v<float> / 2;
+  b.fast = p.boolean("useFastApprox");
+  return FurtherBsdf{b};
+}
+
+Bsdf createWard(const Properties& p) {
+  Ward b;
+  const std::string variant = p.string("variant");
+  if (variant == "ward") b.variant = WardVariant::kWard;
+  if (variant == "ward-duer") b.variant = WardVariant::kDuer;
+  b.alphaU = roughness(p, "alphaU");
+  b.alphaV = roughness(p, "alphaV");
+  b.diffuse = p.texture("diffuseReflectance");
+  b.specular = p.texture("specularReflectance");
+  b.scale = energyScale(p, maximum(*b.diffuse) + maximum(*b.specular));
+  b.specularWeight = specularWeight(average(*b.specular), average(*b.diffuse));
+  return FurtherBsdf{b};
+}
+
+constexpr int kMostMixed = kDeepestBlend + 1;
+
 constexpr BsdfPlugin kPlugins[] = {
     {"diffuse", "Lambertian reflection", kDiffuseParameters, createDiffuse},
     {"lambertian", "Another name of diffuse", kDiffuseParameters, createDiffuse},
     {"phong", "Modified Phong: a diffuse and a cosine-power lobe", kPhongParameters, createPhong},
     {"conductor", "Smooth metal", kConductorParameters, createConductor},
-    {"roughconductor", "Rough metal of GGX or Beckmann facets", kRoughConductorParameters,
+    {"roughconductor", "Rough metal of GGX, Beckmann or Phong facets", kRoughConductorParameters,
      createRoughConductor},
     {"dielectric", "Smooth glass or water", kDielectricParameters, createDielectric},
-    {"roughdielectric", "Rough glass of GGX or Beckmann facets", kRoughDielectricParameters,
+    {"roughdielectric", "Rough glass of GGX, Beckmann or Phong facets", kRoughDielectricParameters,
      createRoughDielectric},
     {"plastic", "Diffuse under a smooth coat", kPlasticParameters, createPlastic},
     {"roughplastic", "Diffuse under a rough coat", kRoughPlasticParameters, createRoughPlastic},
+    {"thindielectric", "A thin pane of smooth glass, which bends nothing",
+     kThinDielectricParameters, createThinDielectric},
+    {"difftrans", "Diffuse transmission: paper, leaves", kDiffuseTransmitterParameters,
+     createDiffuseTransmitter},
+    {"roughdiffuse", "Rough diffuse reflection [Oren and Nayar 1994]", kRoughDiffuseParameters,
+     createRoughDiffuse},
+    {"ward", "Anisotropic gloss over a diffuse base [Ward 1992]", kWardParameters, createWard},
     {"twosided", "The nested BSDF on both sides, or one each for front and back", {}, nullptr, 2},
     {"mask", "The nested BSDF with holes", kMaskParameters, nullptr, 1},
+    {"bumpmap", "The nested BSDF on a surface with a height", kBumpParameters, nullptr, 1},
+    {"normalmap", "The nested BSDF with other normals", kNormalParameters, nullptr, 1},
+    {"blendbsdf", "Two nested BSDFs, the share of each by a texture", kBlendParameters, nullptr, 2},
+    {"mixturebsdf", "Nested BSDFs with a weight each", kMixtureParameters, nullptr, kMostMixed},
 };
 
 }  // namespace

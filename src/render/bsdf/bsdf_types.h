@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What BSDFs return.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The complex refractive index of a metal, per colour channel.
 #pragma once
 

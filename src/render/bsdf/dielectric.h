@@ -1,28 +1,23 @@
+// SPDX-License-Identifier: MIT
 // A smooth interface between two dielectrics: glass, water.
 #pragma once
 
-#include "render/bsdf/bsdf_types.h"
 #include "render/bsdf/fresnel.h"
+#include "render/bsdf/lobe_kinds.h"
 #include "render/core/hemisphere.h"
 #include "render/texture/texture.h"
 
 namespace h2mc {
 
-struct Dielectric {
+struct Dielectric : DeltaLobes {
   static constexpr int kLobes = 2;
   static constexpr int kReflect = 0, kTransmit = 1;
   float eta = 1.5f;  // index of the inside (z < 0) over the outside's
   TexturePtr specularReflectance, specularTransmittance;
   float reflectanceScale = 1, transmittanceScale = 1;  // to conserve energy
 
-  bool isDelta(int) const { return true; }
-  bool hasNonDelta() const { return false; }
   bool transmits() const { return true; }
 
-  template <class T>
-  BsdfValue<T> evaluate(const Vec2<T>&, const Vec3<T>&, const Vec3<T>&) const {
-    return BsdfValue<T>::zero();
-  }
   float lobeSplit(const Vec2f&, const Vec3f& wi, float, float) const {
     const float near = wi.z < 0 ? 1 / eta : eta;
     return fresnelDielectric(std::abs(wi.z), near);
@@ -30,15 +25,6 @@ struct Dielectric {
   int chooseLobe(const Vec2f& uv, const Vec3f& wi, float u0, float u1, float choice) const {
     return choice < lobeSplit(uv, wi, u0, u1) ? kReflect : kTransmit;
   }
-  template <class T>
-  Vec3<T> sample(const Vec2<T>&, const Vec3<T>&, int, const T&, const T&) const {
-    return noDirection<T>();
-  }
-  template <class T>
-  T lobePdf(const Vec2<T>&, const Vec3<T>&, const Vec3<T>&, int) const {
-    return T(0);
-  }
-  bool invert(const Vec2f&, const Vec3f&, const Vec3f&, int, Vec2f&) const { return false; }
   template <class T>
   DeltaSample<T> sampleDelta(const Vec2<T>& uv, const Vec3<T>& wi, int lobe) const {
     using S = Scalar<T>;
@@ -62,7 +48,6 @@ struct Dielectric {
             r,
             t};
   }
-  float width(int) const { return 0; }
   Rgbf albedo() const { return average(*specularTransmittance) * transmittanceScale; }
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/bsdf/fresnel.h"
 
 #include "render/bsdf/quadrature.h"

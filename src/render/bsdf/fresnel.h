@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Fresnel reflectance of smooth interfaces, for unpolarised light.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The diffuse base under a dielectric coat, as plastic and roughplastic have it: light that the coat
 // lets in scatters diffusely, some of it is reflected back inside, and so on.
 #pragma once

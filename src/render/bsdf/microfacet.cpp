@@ -1,10 +1,22 @@
+// SPDX-License-Identifier: MIT
 #include "render/bsdf/microfacet.h"
+
+#include <cmath>
 
 namespace h2mc {
 
+template <>
 bool Microfacet::invert(const Vec3<double>& wi, const Vec3<double>& m, Vec2f& u) const {
   if (!(m.z > 0)) return false;
   const double a = alpha;
+  if (distribution == FacetDistribution::kPhong) {
+    const double tan2 = (m.x * m.x + m.y * m.y) / (m.z * m.z);
+    const double e = std::max(2 / (a * a) - 2, 0.0);
+    const double u0 = -std::expm1(-0.5 * (e + 2) * std::log1p(tan2));  // cos^2 = 1 / (1 + tan^2)
+    if (!(u0 < 1)) return false;
+    u = {toUnitInterval(u0), invertAzimuth(m.x, m.y)};
+    return true;
+  }
   if (distribution == FacetDistribution::kBeckmann) {
     const double tan2 = (m.x * m.x + m.y * m.y) / (m.z * m.z);
     const double u0 = -std::expm1(-tan2 / (a * a));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Isotropic microfacet surfaces [Walter et al. 2007, "Microfacet Models for Refraction through Rough
 // Surfaces"]: the distribution of facet normals, masking, and the sampling of facets.
 //
@@ -9,16 +10,19 @@
 //  - Beckmann: all normals by D(m) cos(m) [Walter et al., eqs. 28-29]. The exact map of its visible
 //    normals is a root-finding with no azimuth to wrap; this one has a closed inverse. Weights
 //    exceed 1 only at grazing incidence, where masking holds them near 1 / alpha at worst.
+//  - Phong: all normals by D(m) cos(m) as well [Walter et al., eqs. 31-32], with the exponent
+//    2 / alpha^2 - 2 and Beckmann's masking, as Mitsuba 0.6 has them.
 //
 // Directions here have z > 0; a facet's normal m too.
 #pragma once
 
 #include "render/bsdf/unary.h"
 #include "render/core/hemisphere.h"
+#include "render/texture/texture.h"
 
 namespace h2mc {
 
-enum class FacetDistribution : std::uint8_t { kBeckmann, kGgx };
+enum class FacetDistribution : std::uint8_t { kBeckmann, kGgx, kPhong };
 
 // Reflection by facets, without the Fresnel term.
 template <class T>
@@ -29,20 +33,29 @@ struct FacetReflection {
   static FacetReflection none() { return {T(0), T(0), T(0), T(0)}; }
 };
 
-struct Microfacet {
+// A: float, or the derivative type where the roughness comes from a texture.
+template <class A>
+struct Facets {
   FacetDistribution distribution = FacetDistribution::kBeckmann;
-  float alpha = 0.1f;
+  A alpha = A(0.1f);
 
   // D(h / |h|) for h of any length, h.z > 0, with h2 = |h|^2.
   template <class T>
   T density(const Vec3<T>& h, const T& h2) const {
     using S = Scalar<T>;
-    const S a2 = S(alpha) * S(alpha);
+    const auto a = roughness<T>();
+    const auto a2 = square(a);
     using ad::dot2;
     const T planar = dot2(h.x, h.x, h.y, h.y), vertical = ad::square(h.z);
     if (distribution == FacetDistribution::kGgx) {
       const T ratio = h2 / (vertical + planar * (S(1) / a2));
       return ad::square(ratio) * (kInvPiOf<T> / a2);
+    }
+    if (distribution == FacetDistribution::kPhong) {
+      const auto e = exponent<T>();
+      const T power = ad::log1p(T(planar * (S(-1) / h2))) * (e * S(0.5));
+      if (!(value(power) > S(-80))) return T(0);
+      return ad::exp(power) * ((e + S(2)) * (S(0.5) * kInvPiOf<T>));
     }
     const T exponent = planar / vertical * (S(-1) / a2);
     if (!(value(exponent) > S(-80))) return T(0);
@@ -55,14 +68,13 @@ struct Microfacet {
   template <class T>
   T maskingOverCos(const T& cosine) const {
     using S = Scalar<T>;
-    const S a = alpha;
     const bool ggx = distribution == FacetDistribution::kGgx;
-    return ofOne(cosine, [a, ggx](const auto& c) {
+    return ofCosine(cosine, [ggx](const auto& c, const auto& a) {
       using U = std::remove_cvref_t<decltype(c)>;
       // 2 / (1 + sqrt(1 + alpha^2 tan^2)) [Walter et al., eq. 34]
       if (ggx) return U(S(2) / (c + ad::sqrt(U(c * c * (S(1) - a * a) + a * a))));
       // Their rational approximation [eq. 27], in x = 1 / (alpha tan).
-      if (!isMasked(value(c), a)) return U(S(1) / c);
+      if (!isMasked(value(c), value(a))) return U(S(1) / c);
       const U s = S(1) / (ad::sqrt(U(S(1) - c * c)) * a);
       const U x = c * s;
       return U(s * (S(3.535) + S(2.181) * x) / (S(1) + x * (S(2.276) + S(2.577) * x)));
@@ -74,14 +86,14 @@ struct Microfacet {
   template <class T>
   T masking(const T& cosine) const {
     using S = Scalar<T>;
-    const S c = value(cosine), a2 = S(alpha) * S(alpha);
-    if (distribution == FacetDistribution::kBeckmann) {
-      if (!isMasked(c, S(alpha))) return T(S(1));
+    const S c = value(cosine), a = value(roughness<T>()), a2 = a * a;
+    if (distribution != FacetDistribution::kGgx) {
+      if (!isMasked(c, a)) return T(S(1));
     } else if (a2 * (S(1) - c * c) < c * c) {
-      return ofOne(cosine, [a2](const auto& x) {
+      return ofCosine(cosine, [](const auto& x, const auto& alpha) {
         using U = std::remove_cvref_t<decltype(x)>;
         const U tan2 = S(1) / (x * x) - S(1);
-        return U(S(2) / (S(1) + ad::sqrt(U(S(1) + tan2 * a2))));
+        return U(S(2) / (S(1) + ad::sqrt(U(S(1) + tan2 * (alpha * alpha)))));
       });
     }
     return maskingOverCos(cosine) * cosine;
@@ -114,8 +126,13 @@ struct Microfacet {
   template <class T>
   Vec3<T> sample(const Vec3<T>& wi, const T& u0, const T& u1) const {
     using S = Scalar<T>;
-    const S a = alpha;
+    const auto a = roughness<T>();
     const T u = awayFromPole(u0);
+    if (distribution == FacetDistribution::kPhong) {
+      // cos^(e + 2) = 1 - u.
+      const T x = ad::log1p(T(-u)) * (S(1) / (exponent<T>() + S(2)));
+      return fromPolar<T>(ad::sqrt(T(-ad::expm1(T(x * S(2))))), ad::exp(x), u1);
+    }
     if (distribution == FacetDistribution::kBeckmann) {
       const T tangent = ad::sqrt(T(-ad::log1p(T(-u)))) * a;
       const T c = ad::rsqrt(T(tangent * tangent + S(1)));
@@ -135,6 +152,7 @@ struct Microfacet {
   }
 
   // The coordinates that draw m (of any length, m.z > 0) when seen from wi; false if none do.
+  // There for plain numbers alone.
   bool invert(const Vec3<double>& wi, const Vec3<double>& m, Vec2f& u) const;
 
   float width() const { return std::min(kPi / 2, 2 * alpha); }
@@ -144,10 +162,75 @@ struct Microfacet {
   static constexpr float kSmallestHalf2 = 1e-12f;
 
  private:
+  static constexpr bool kTextured = ad::isDual<A>;
+
+  template <class T>
+  auto roughness() const {
+    if constexpr (kTextured)
+      return alpha;
+    else
+      return Scalar<T>(alpha);
+  }
+  template <class X>
+  static X square(const X& x) {
+    return X(x * x);
+  }
+  // Of Phong's cosine: from 0 on, to which a roughness above 1 leads.
+  template <class T>
+  auto exponent() const {
+    using S = Scalar<T>;
+    const auto a = roughness<T>();
+    using X = std::remove_cv_t<decltype(a)>;
+    return ad::max(X(S(2) / X(a * a) - S(2)), S(0));
+  }
+  // f(cosine, alpha), at the price of one chain rule where alpha is a number.
+  template <class T, class F>
+  T ofCosine(const T& cosine, F&& f) const {
+    if constexpr (kTextured)
+      return f(cosine, alpha);
+    else
+      return ofOne(cosine, [&, a = Scalar<T>(alpha)](const auto& c) { return f(c, a); });
+  }
+
   // Whether Walter et al.'s rational approximation has G1 < 1: alpha tan > 1 / 1.6 at this cosine.
   template <class S>
   static bool isMasked(S cosine, S a) {
     return cosine * cosine < S(2.56) * a * a * (S(1) - cosine * cosine);
+  }
+};
+
+using Microfacet = Facets<float>;
+template <>
+bool Microfacet::invert(const Vec3<double>& wi, const Vec3<double>& m, Vec2f& u) const;
+
+inline constexpr float kSmallestRoughness = 1e-4f;
+
+// A surface of facets, whose roughness may be a texture's.
+struct FacetSurface {
+  Microfacet facets;     // with the mean roughness, where that is a texture
+  TexturePtr roughness;  // null: facets.alpha everywhere
+
+  // f(Facets) with the roughness at uv.
+  template <class T, class F>
+  auto withFacets(const Vec2<T>& uv, F&& f) const {
+    if (!roughness) [[likely]]
+      return f(facets);
+    if constexpr (ad::isDual<T>)
+      return withTexture<T>(uv, f);
+    else
+      return f(facetsAt<T>(uv));
+  }
+
+ private:
+  template <class T>
+  Facets<T> facetsAt(const Vec2<T>& uv) const {
+    return {facets.distribution,
+            ad::max(scalarOf(evaluate<T>(*roughness, uv)), Scalar<T>(kSmallestRoughness))};
+  }
+  // Apart, so that what has no texture is not slowed down.
+  template <class T, class F>
+  [[gnu::noinline]] auto withTexture(const Vec2<T>& uv, F&& f) const {
+    return f(facetsAt<T>(uv));
   }
 };
 

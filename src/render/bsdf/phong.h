@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: MIT
 // The modified Phong model [Lafortune and Willems 1994, "Using the Modified Phong Reflectance Model
 // for Physically Based Rendering"].
 #pragma once
 
-#include "render/bsdf/bsdf_types.h"
+#include "render/bsdf/lobe_kinds.h"
 #include "render/bsdf/unary.h"
 #include "render/core/frame.h"
 #include "render/core/hemisphere.h"
@@ -10,7 +11,7 @@
 
 namespace h2mc {
 
-struct Phong {
+struct Phong : NonDeltaLobes {
   static constexpr int kLobes = 2;
   static constexpr int kSpecular = 0, kDiffuse = 1;
   TexturePtr diffuse, specular;
@@ -18,8 +19,6 @@ struct Phong {
   float scale = 1;           // of both reflectances, to conserve energy
   float specularWeight = 0;  // probability of the specular lobe
 
-  bool isDelta(int) const { return false; }
-  bool hasNonDelta() const { return true; }
   bool transmits() const { return false; }
 
   template <class T>
@@ -88,10 +87,6 @@ struct Phong {
     if (!(remainder < 1)) return false;
     u = {toUnitInterval(remainder), invertAzimuth(local.x, local.y)};
     return true;
-  }
-  template <class T>
-  DeltaSample<T> sampleDelta(const Vec2<T>&, const Vec3<T>&, int) const {
-    return DeltaSample<T>::none();
   }
   float width(int lobe) const {
     return lobe == kDiffuse ? kPi / 2 : std::min(kPi / 2, std::sqrt(2 / (exponent + 2)));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A diffuse base under a smooth dielectric coat.
 #pragma once
 

@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: MIT
 #include "render/bsdf/quadrature.h"
 
 #include <cmath>
 #include <numbers>
 
+#include "render/core/index.h"
 namespace h2mc {
 
 std::vector<QuadratureNode> gaussLegendre(int count) {
@@ -22,8 +24,7 @@ std::vector<QuadratureNode> gaussLegendre(int count) {
       x -= change;
       if (std::abs(change) < 1e-15) break;
     }
-    nodes[static_cast<std::size_t>(i)] = {0.5 * (1 - x),
-                                          1 / ((1 - x * x) * derivative * derivative)};
+    nodes[at(i)] = {0.5 * (1 - x), 1 / ((1 - x * x) * derivative * derivative)};
   }
   return nodes;
 }

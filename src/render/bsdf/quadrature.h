@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numerical integration for tables made when a scene is read.
 #pragma once
 

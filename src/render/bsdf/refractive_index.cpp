@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/bsdf/refractive_index.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Refractive indices by name.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/bsdf/rough_transmittance.h"
 
 #include <map>
@@ -6,6 +7,7 @@
 
 #include "render/bsdf/fresnel.h"
 #include "render/bsdf/quadrature.h"
+#include "render/core/index.h"
 
 namespace h2mc {
 
@@ -24,6 +26,15 @@ double throughFacet(const Microfacet& facets, double eta, const Vec& wi, const V
   return transmitDielectric(c, eta) * facets.maskingOverCos(down) * down;
 }
 
+// The density of slopes over that of GGX, where 1 + p^2 + q^2 = 1 / c^2 in units of alpha.
+double overGgx(const Microfacet& facets, double c) {
+  if (facets.distribution == FacetDistribution::kGgx) return 1;
+  // Phong: alpha^2 (e + 2) / (2 pi) cos^(e + 4) dp dq.
+  const double a2 = double(facets.alpha) * double(facets.alpha), c2 = c * c;
+  const double e = std::max(2 / a2 - 2, 0.0), cos2 = c2 / (c2 + a2 * (1 - c2));
+  return a2 * (e + 2) / 2 * std::pow(cos2, e / 2 + 2) / (c2 * c2);
+}
+
 }  // namespace
 
 // E over visible facets of (1 - F) G1(wo). With facet slopes (p, q) / alpha = their unit version,
@@ -35,7 +46,7 @@ double RoughTransmittance::integrate(const Microfacet& facets, double eta, doubl
   const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)), a = facets.alpha;
   const Vec wi(sine, 0, cosine);
   double sum = 0;
-  if (facets.distribution == FacetDistribution::kGgx) {
+  if (facets.distribution != FacetDistribution::kBeckmann) {
     // p = tan(t), q = tan(s) / cos(t): P22 dp dq = cos(t) cos(s)^2 / pi dt ds.
     const double quarter = std::numbers::pi / 2, start = -std::atan2(cosine, a * sine);
     for (const auto& [x, wx] : nodes) {
@@ -44,7 +55,7 @@ double RoughTransmittance::integrate(const Microfacet& facets, double eta, doubl
       double inner = 0;
       for (const auto& [y, wy] : halfNodes) {
         const double s = quarter * y, cs = std::cos(s);
-        inner += wy * cs * cs *
+        inner += wy * cs * cs * overGgx(facets, std::cos(t) * cs) *
                  throughFacet(facets, eta, wi,
                               Vec(a * std::sin(t) * cs, a * std::sin(s), std::cos(t) * cs));
       }
@@ -88,8 +99,7 @@ RoughTransmittance::RoughTransmittance(const Microfacet& facets, double eta) {
   pieces_.resize(n);
   for (int i = 0; i < n; ++i) {
     const double rise = f[i + 1] - f[i];
-    pieces_[static_cast<std::size_t>(i)] = {f[i], m[i], 3 * rise - 2 * m[i] - m[i + 1],
-                                            m[i] + m[i + 1] - 2 * rise};
+    pieces_[at(i)] = {f[i], m[i], 3 * rise - 2 * m[i] - m[i + 1], m[i] + m[i + 1] - 2 * rise};
   }
 
   // Diffuse light from inside: 2 int_0^1 T(c) c dc, with nodes gathered at the smooth interface's

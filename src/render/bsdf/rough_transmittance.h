@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How much light passes a rough dielectric interface.
 #pragma once
 
@@ -5,6 +6,7 @@
 #include <vector>
 
 #include "render/bsdf/microfacet.h"
+#include "render/core/index.h"
 
 namespace h2mc {
 
@@ -29,7 +31,7 @@ class RoughTransmittance {
       using S = Scalar<U>;
       const U x = ad::sqrt(c) * S(kIntervals);
       const int i = std::clamp(static_cast<int>(value(x)), 0, kIntervals - 1);
-      const Piece& p = pieces_[static_cast<std::size_t>(i)];
+      const Piece& p = pieces_[at(i)];
       const U t = x - S(i);
       return U(((t * S(p.c3) + S(p.c2)) * t + S(p.c1)) * t + S(p.c0));
     });

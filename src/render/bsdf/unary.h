@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Functions of one active number, at the price of one chain rule.
 #pragma once
 
@@ -12,9 +13,12 @@ namespace h2mc {
 template <class T, class F>
 T ofOne(const T& x, F&& f) {
   if constexpr (ad::dimension < T >> 1) {
-    using One = ad::Dual2<Scalar<T>, 1>;
+    using One = ad::Dual<Scalar<T>, 1, ad::order<T>>;
     const One y = f(One::variable(value(x), 0));
-    return chain(x, y.v, y.gradient(0), y.hessian(0, 0));
+    if constexpr (ad::order<T> == 1)
+      return chain(x, y.v, y.gradient(0), 0);
+    else
+      return chain(x, y.v, y.gradient(0), y.hessian(0, 0));
   } else {
     return f(x);
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A perspective pinhole camera.
 #pragma once
 
@@ -17,6 +18,10 @@ class Camera {
   // ignored. fov in degrees along the axis; aspect = width / height.
   // Precondition: 0 < fov < 180, aspect > 0, toWorld invertible.
   Camera(const Mat4& toWorld, float fov, FovAxis axis, float aspect);
+
+  // Leaves a window of the film, given by two corners in the coordinates of the whole one: from here on
+  // film coordinates are the window's. Precondition: left < right, top < bottom. Call once.
+  void crop(double left, double top, double right, double bottom);
 
   // Lets the camera move as `motion` says, if it moves; the rest stays as constructed.
   void follow(const Motion& motion);
@@ -40,8 +45,8 @@ class Camera {
   // corner.
   template <class P, class T>
   Vec3<T> direction(const CameraPose<P>& pose, const T& filmX, const T& filmY) const {
-    const T x = (filmX * Scalar<T>(-2) + Scalar<T>(1)) * Scalar<T>(tanX_);
-    const T y = (filmY * Scalar<T>(-2) + Scalar<T>(1)) * Scalar<T>(tanY_);
+    const T x = (filmX * Scalar<T>(-2) + Scalar<T>(1)) * Scalar<T>(tanX_) + Scalar<T>(shiftX_);
+    const T y = (filmY * Scalar<T>(-2) + Scalar<T>(1)) * Scalar<T>(tanY_) + Scalar<T>(shiftY_);
     return normalize(pose.left * x + pose.up * y + pose.forward);
   }
   // Of a camera at rest.
@@ -73,7 +78,9 @@ class Camera {
  private:
   CameraPose<float> pose_{Vec3f(0), {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   CameraMotion motion_;
+  // At unit distance the film is the rectangle [-tan, tan] + shift.
   float tanX_ = 1, tanY_ = 1, filmArea_ = 4;
+  float shiftX_ = 0, shiftY_ = 0;
 };
 
 }  // namespace h2mc

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where a camera is and how it is turned, at rest or at a moment of its motion.
 #pragma once
 

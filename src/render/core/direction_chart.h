@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Two coordinates for the unit vectors near one.
 #pragma once
 

@@ -1,7 +1,10 @@
+// SPDX-License-Identifier: MIT
 #include "render/core/distribution.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "render/core/unit_interval.h"
 
 namespace h2mc {
 
@@ -30,7 +33,7 @@ DiscreteDistribution::Sample DiscreteDistribution::sample(float u) const {
       static_cast<int>(std::clamp<std::ptrdiff_t>(next - cumulative_.begin() - 1, 0, size() - 1));
   const double remainder =
       (static_cast<double>(u) - cumulative_[static_cast<std::size_t>(i)]) / probability(i);
-  return {i, std::min(static_cast<float>(std::max(remainder, 0.0)), 0x1.fffffep-1f)};
+  return {i, toUnitInterval(remainder)};
 }
 
 float DiscreteDistribution::invert(int index, float remainder) const {
@@ -102,9 +105,7 @@ Vec2f BilinearDistribution::invert(double u, double v) const {
   const double start = blend(cumulative(rows.first, column), cumulative(rows.second, column));
   const double u0 = (start + (a + b) / (2 * width_) * invertLinear(a, b, x)) /
                     blend(mass(rows.first), mass(rows.second));
-  const auto coordinate = [](double c) {
-    return std::clamp(static_cast<float>(c), 0.0f, 0x1.fffffep-1f);
-  };
+  const auto coordinate = [](double c) { return toUnitInterval(c); };
   return {coordinate(u0), coordinate(u1)};
 }
 

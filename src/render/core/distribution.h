@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sampling of tabulated densities.
 #pragma once
 

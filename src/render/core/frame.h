@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Orthonormal shading frames.
 #pragma once
 

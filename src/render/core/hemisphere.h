@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Directions from primary coordinates: what the sampling routines of BSDFs and lights share.
 #pragma once
 
@@ -6,6 +7,7 @@
 #include <numbers>
 
 #include "render/core/types.h"
+#include "render/core/unit_interval.h"
 
 namespace h2mc {
 
@@ -36,11 +38,6 @@ Vec3<T> sampleCosine(const T& u0, const T& u1) {
   // The cosine is constant where the sine is: the direction is to stay a unit vector.
   const T u = awayFromPole(u0);
   return fromPolar<T>(ad::sqrt(u), ad::sqrt(T(Scalar<T>(1) - u)), u1);
-}
-
-// Into [0, 1), for coordinates that rounding may have put at 1 or just below 0.
-inline float toUnitInterval(double u) {
-  return std::clamp(static_cast<float>(u), 0.0f, 0x1.fffffep-1f);
 }
 
 // The u1 with phi = 2 pi u1.

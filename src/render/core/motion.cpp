@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: MIT
 #include "render/core/motion.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "render/core/index.h"
 namespace h2mc {
 namespace {
 
@@ -111,7 +113,7 @@ int motionSegments(const Motion& motion, const glm::dvec3& low, const glm::dvec3
   if (!motion.moves()) return 1;
   std::array<glm::dvec4, 8> corners;
   for (int i = 0; i < 8; ++i)
-    corners[static_cast<std::size_t>(i)] =
+    corners[at(i)] =
         glm::dvec4(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z, 1);
   double size = 0;
   for (const Motion::Key& key : motion.keys())

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Keyframed transforms.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/core/random.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Random streams that belong to a chain, a tile or a bootstrap sample, never to a thread.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Functions whose derivatives stay finite at the border of their domain, and helpers for vectors of
 // duals.
 #pragma once

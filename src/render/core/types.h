@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The renderer's words for numbers: vectors, colours, the scalar behind a derivative type.
 #pragma once
 
@@ -62,6 +63,9 @@ T luminance(const Rgb<T>& c) {
   using S = Scalar<T>;
   return c.x * S(kLuminance[0]) + c.y * S(kLuminance[1]) + c.z * S(kLuminance[2]);
 }
+
+// No channel carries anything.
+inline bool dark(const Rgbf& c) { return !(c.x > 0) && !(c.y > 0) && !(c.z > 0); }
 
 template <class T>
 T squared(const T& x) {

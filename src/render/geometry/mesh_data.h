@@ -1,20 +1,22 @@
+// SPDX-License-Identifier: MIT
 // Meshes as files hold them, and what makes shapes of them.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "render/core/user_error.h"
 #include "render/geometry/shape.h"
 
 namespace h2mc {
 
 // A file that is not a mesh, or a broken one; what() names file and place and says why.
-class MeshError : public std::runtime_error {
+class MeshError : public UserError {
  public:
-  using std::runtime_error::runtime_error;
+  using UserError::UserError;
 };
 
 // In object space. Every index is within range and every number finite once a loader returns it.
@@ -24,7 +26,14 @@ struct MeshData {
   std::vector<Vec2f> uvs;      // empty, or one a vertex
   std::vector<glm::uvec3> triangles;
   bool faceNormals = false;  // the file asks for flat shading
+  // What the file calls its materials ("" where it names none), and for each triangle which of them it has:
+  // both empty where all have one.
+  std::vector<std::string> materialNames;
+  std::vector<std::uint32_t> materials;
 };
+
+// The triangles of each material, in the order of their names, with the vertices that they use.
+std::vector<MeshData> splitByMaterial(const MeshData& data);
 
 // The loaders. Throw MeshError; a mesh without triangles is an error too.
 MeshData loadObj(const std::string& path, bool flipTexCoords);

@@ -1,4 +1,6 @@
+// SPDX-License-Identifier: MIT
 // Wavefront OBJ: faces of any number of corners; groups are one mesh.
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <fstream>
@@ -56,13 +58,17 @@ class ObjReader {
         normals_.emplace_back(x, y, z);
       } else if (keyword == "f") {
         readFace();
-      } else if (keyword == "g" || keyword == "o" || keyword == "usemtl") {
+      } else if (keyword == "g" || keyword == "o") {
         ++group_;
+      } else if (keyword == "usemtl") {
+        ++group_;
+        useMaterial(std::string(text_.word()));
       }
     }
     if (data_.triangles.empty()) text_.fail("the mesh has no faces");
     if (!anyNormal_) data_.normals.clear();
     if (!anyUv_) data_.uvs.clear();
+    if (data_.materialNames.size() < 2) data_.materials.clear();
     return std::move(data_);
   }
 
@@ -109,6 +115,15 @@ class ObjReader {
     return entry->second;
   }
 
+  void useMaterial(const std::string& name) {
+    std::vector<std::string>& names = data_.materialNames;
+    // What came before the first name has none.
+    if (names.empty() && !data_.triangles.empty()) names.emplace_back();
+    const auto found = std::find(names.begin(), names.end(), name);
+    material_ = static_cast<std::uint32_t>(found - names.begin());
+    if (found == names.end()) names.push_back(name);
+  }
+
   void readFace() {
     unsigned first = 0, previous = 0;
     int corners = 0;
@@ -116,7 +131,10 @@ class ObjReader {
          word = text_.word(), ++corners) {
       const unsigned v = vertex(word);
       if (corners == 0) first = v;
-      if (corners >= 2) data_.triangles.emplace_back(first, previous, v);
+      if (corners >= 2) {
+        data_.triangles.emplace_back(first, previous, v);
+        data_.materials.push_back(material_);
+      }
       previous = v;
     }
     if (corners < 3) text_.fail("a face with " + std::to_string(corners) + " corners");
@@ -129,6 +147,7 @@ class ObjReader {
   std::unordered_map<Key, unsigned, KeyHash> vertices_;
   MeshData data_;
   unsigned group_ = 0;
+  std::uint32_t material_ = 0;
   bool anyNormal_ = false, anyUv_ = false;
 };
 
@@ -149,6 +168,34 @@ std::string readMeshFile(const std::string& path) {
 MeshData loadObj(const std::string& path, bool flipTexCoords) {
   const std::string text = readMeshFile(path);
   return ObjReader(path, text, flipTexCoords).read();
+}
+
+std::vector<MeshData> splitByMaterial(const MeshData& data) {
+  if (data.materials.empty()) return {data};
+  constexpr unsigned kNone = ~0u;
+  std::vector<MeshData> parts;
+  for (std::uint32_t m = 0; m < data.materialNames.size(); ++m) {
+    MeshData part;
+    part.faceNormals = data.faceNormals;
+    part.materialNames = {data.materialNames[m]};
+    std::vector<unsigned> index(data.positions.size(), kNone);
+    const auto vertex = [&](unsigned i) {
+      if (index[i] != kNone) return index[i];
+      index[i] = static_cast<unsigned>(part.positions.size());
+      part.positions.push_back(data.positions[i]);
+      if (!data.normals.empty()) part.normals.push_back(data.normals[i]);
+      if (!data.uvs.empty()) part.uvs.push_back(data.uvs[i]);
+      return index[i];
+    };
+    for (std::size_t i = 0; i < data.triangles.size(); ++i) {
+      if (data.materials[i] != m) continue;
+      const glm::uvec3& t = data.triangles[i];
+      const unsigned a = vertex(t.x), b = vertex(t.y), c = vertex(t.z);
+      part.triangles.emplace_back(a, b, c);
+    }
+    if (!part.triangles.empty()) parts.push_back(std::move(part));
+  }
+  return parts;
 }
 
 }  // namespace h2mc

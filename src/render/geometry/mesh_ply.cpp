@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The Stanford polygon format: ascii and binary of either byte order.
 #include <algorithm>
 #include <bit>

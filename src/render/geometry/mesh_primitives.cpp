@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/geometry/mesh_data.h"
 
 namespace h2mc {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Mitsuba's serialized meshes, versions 3 and 4: several zlib streams in a file, with a table of
 // where they start at its end. Numbers are little endian.
 #include <zlib.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A cursor over the text of a mesh file, line by line.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A mesh as the templated code reads it: at rest, or at a moment of its motion.
 #pragma once
 

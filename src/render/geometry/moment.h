@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where in a motion's steps a moment lies.
 #pragma once
 

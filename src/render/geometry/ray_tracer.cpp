@@ -1,15 +1,17 @@
+// SPDX-License-Identifier: MIT
 #include "render/geometry/ray_tracer.h"
 
 #include <tbb/global_control.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
+#include <deque>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
-#include "render/geometry/surface.h"
+#include "render/geometry/exact_hit.h"
+#include "render/geometry/ray_offset.h"
 
 #ifndef H2MC_EMBREE_MAJOR
 #define H2MC_EMBREE_MAJOR 3
@@ -23,15 +25,6 @@
 namespace h2mc {
 namespace {
 
-// How far rays start off a surface, relative to the largest coordinate of their origin: 16 units in
-// the last place, when a point on a surface is off by half of one [after Waechter and Binder 2019,
-// "A Fast and Robust Method for Avoiding Self-Intersection", but without absolute lengths].
-constexpr float kRelativeOffset = 0x1p-20f;
-// The same relative to the largest triangle whose plane is not parallel to a coordinate plane:
-// Embree finds such a plane only to a few units in the last place of its corners.
-constexpr float kTriangleOffset = 0x1p-22f;
-// The same relative to the largest coordinate of the scene, for origins at (0, 0, 0).
-constexpr float kLeastOffset = 0x1p-36f;
 // The share of a segment's length by which shadow rays fall short of its end, besides the offset.
 constexpr float kShortening = 0x1p-20f;
 
@@ -80,13 +73,7 @@ RTCRay makeRay(const Vec3f& origin, const Vec3f& direction, float near, float fa
   return ray;
 }
 
-struct Line {
-  glm::dvec3 origin, direction;
-  double near, far;
-  float time;
-};
-
-Line lineOf(RTCRayN* ray) {
+Segment segmentOf(RTCRayN* ray) {
   return {{RTCRayN_org_x(ray, 1, 0), RTCRayN_org_y(ray, 1, 0), RTCRayN_org_z(ray, 1, 0)},
           {RTCRayN_dir_x(ray, 1, 0), RTCRayN_dir_y(ray, 1, 0), RTCRayN_dir_z(ray, 1, 0)},
           RTCRayN_tnear(ray, 1, 0),
@@ -94,58 +81,43 @@ Line lineOf(RTCRayN* ray) {
           RTCRayN_time(ray, 1, 0)};
 }
 
-// The roots in double: an origin that is off the sphere by a few ulps of float is clearly inside or
-// outside.
-bool hitSphere(const detail::SphereView<float>& sphere, const Line& line, double& t, int& root) {
-  const glm::dvec3 toCenter = sphere.exactCenter - line.origin;
-  const double length2 = glm::dot(line.direction, line.direction);
-  const double closest = glm::dot(toCenter, line.direction) / length2;
-  const glm::dvec3 perpendicular = toCenter - line.direction * closest;
-  const double radius = static_cast<double>(sphere.radius);
-  const double discriminant = radius * radius - glm::dot(perpendicular, perpendicular);
-  if (!(discriminant >= 0)) return false;
-  const double half = std::sqrt(discriminant / length2);
-  const double larger = closest >= 0 ? closest + half : closest - half;
-  if (larger == 0) return false;
-  const double smaller = (glm::dot(toCenter, toCenter) - radius * radius) / (larger * length2);
-  const double roots[2] = {closest >= 0 ? smaller : larger, closest >= 0 ? larger : smaller};
-  for (root = 0; root < 2; ++root) {
-    t = roots[root];
-    if (t > line.near && t < line.far) return true;
-  }
-  return false;
+// The box, a little larger: for rounding of this and of the traversal.
+void setBounds(const Vec3f& lower, const Vec3f& upper, RTCBounds& b) {
+  const Vec3f margin = (glm::max(glm::abs(lower), glm::abs(upper)) + (upper - lower)) * 1e-6f;
+  b.lower_x = lower.x - margin.x;
+  b.lower_y = lower.y - margin.y;
+  b.lower_z = lower.z - margin.z;
+  b.upper_x = upper.x + margin.x;
+  b.upper_y = upper.y + margin.y;
+  b.upper_z = upper.z + margin.z;
 }
 
-bool hitDisk(const detail::DiskView<float>& disk, const Line& line, double& t) {
-  const glm::dvec3 &ax = disk.exactX, &ay = disk.exactY, n = glm::cross(ax, ay);
-  const glm::dvec3 start = line.origin - disk.exactCenter;
-  t = -glm::dot(start, n) / glm::dot(line.direction, n);
-  if (!(t > line.near && t < line.far)) return false;
-  const glm::dvec3 p = start + line.direction * t;
-  const double n2 = glm::dot(n, n);
-  const double x = glm::dot(p, glm::cross(ay, n)) / n2, y = glm::dot(p, glm::cross(n, ax)) / n2;
-  return x * x + y * y <= 1;
+void setHit(const RTCIntersectFunctionNArguments* arguments, double t, std::uint32_t root) {
+  RTCHitN* hit = RTCRayHitN_HitN(arguments->rayhit, 1);
+  RTCRayN_tfar(RTCRayHitN_RayN(arguments->rayhit, 1), 1, 0) = static_cast<float>(t);
+  RTCHitN_u(hit, 1, 0) = static_cast<float>(root);
+  RTCHitN_geomID(hit, 1, 0) = arguments->geomID;
+  RTCHitN_primID(hit, 1, 0) = arguments->primID;
 }
 
-bool hitShape(const Shape& shape, const Line& line, double& t, int& root) {
-  root = 0;
-  return detail::withView<float>(shape, &line.time, [&](const auto& view) {
-    if constexpr (requires { view.radius; })
-      return hitSphere(view, line, t, root);
-    else if constexpr (requires { view.axisX; })
-      return hitDisk(view, line, t);
-    else
-      return false;  // meshes are not asked about here
-  });
+void setOccluded(RTCRayN* ray) {
+  RTCRayN_tfar(ray, 1, 0) = -std::numeric_limits<float>::infinity();
 }
 
-void shapeBounds(const RTCBoundsFunctionArguments* arguments) {
+// Spheres, disks and cylinders: the user's data is the Shape.
+
+void roundBounds(const RTCBoundsFunctionArguments* arguments) {
   const Geometry& geometry = static_cast<const Shape*>(arguments->geometryUserPtr)->geometry;
   const std::size_t step = arguments->timeStep;
   const auto* sphere = std::get_if<Sphere>(&geometry);
   if (const auto* moving = std::get_if<MovingSphere>(&geometry)) sphere = &moving->steps[step];
+  const auto* cylinder = std::get_if<Cylinder>(&geometry);
+  if (const auto* moving = std::get_if<MovingCylinder>(&geometry)) cylinder = &moving->steps[step];
   Vec3f center, extent;
-  if (sphere) {
+  if (cylinder) {
+    center = (cylinder->start + cylinder->end) * 0.5f;
+    extent = glm::abs(cylinder->end - cylinder->start) * 0.5f + cylinder->radius;
+  } else if (sphere) {
     center = sphere->center;
     extent = Vec3f(sphere->radius);
   } else {
@@ -154,137 +126,156 @@ void shapeBounds(const RTCBoundsFunctionArguments* arguments) {
     center = disk->center;
     extent = glm::sqrt(disk->axisX * disk->axisX + disk->axisY * disk->axisY);
   }
-  // Rounding of this and of the traversal.
-  extent += (glm::abs(center) + extent) * 1e-6f;
-  RTCBounds& b = *arguments->bounds_o;
-  b.lower_x = center.x - extent.x;
-  b.lower_y = center.y - extent.y;
-  b.lower_z = center.z - extent.z;
-  b.upper_x = center.x + extent.x;
-  b.upper_y = center.y + extent.y;
-  b.upper_z = center.z + extent.z;
+  setBounds(center - extent, center + extent, *arguments->bounds_o);
 }
 
-void shapeIntersect(const RTCIntersectFunctionNArguments* arguments) {
+void roundIntersect(const RTCIntersectFunctionNArguments* arguments) {
   if (!arguments->valid[0]) return;
-  RTCRayN* ray = RTCRayHitN_RayN(arguments->rayhit, 1);
   double t;
-  int root;
-  if (!hitShape(*static_cast<const Shape*>(arguments->geometryUserPtr), lineOf(ray), t, root))
-    return;
-  RTCHitN* hit = RTCRayHitN_HitN(arguments->rayhit, 1);
-  RTCRayN_tfar(ray, 1, 0) = static_cast<float>(t);
-  RTCHitN_u(hit, 1, 0) = static_cast<float>(root);
-  RTCHitN_geomID(hit, 1, 0) = arguments->geomID;
-  RTCHitN_primID(hit, 1, 0) = arguments->primID;
+  std::uint32_t root;
+  if (hitRound(*static_cast<const Shape*>(arguments->geometryUserPtr),
+               segmentOf(RTCRayHitN_RayN(arguments->rayhit, 1)), t, root))
+    setHit(arguments, t, root);
 }
 
-void shapeOccluded(const RTCOccludedFunctionNArguments* arguments) {
+void roundOccluded(const RTCOccludedFunctionNArguments* arguments) {
   if (!arguments->valid[0]) return;
   double t;
-  int root;
-  if (hitShape(*static_cast<const Shape*>(arguments->geometryUserPtr), lineOf(arguments->ray), t,
+  std::uint32_t root;
+  if (hitRound(*static_cast<const Shape*>(arguments->geometryUserPtr), segmentOf(arguments->ray), t,
                root))
-    RTCRayN_tfar(arguments->ray, 1, 0) = -std::numeric_limits<float>::infinity();
+    setOccluded(arguments->ray);
 }
 
-float largestCoordinate(const Vec3f& p) {
-  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-}
+// A mesh's vast triangles: a geometry of their own beside the rest of the mesh.
+struct VastTriangles {
+  const Shape* shape;
+  std::uint32_t index;  // of the shape
+  std::span<const std::uint32_t> triangles;
+};
 
-// The part of the offset that does not depend on where a ray starts.
-float leastOffset(std::span<const Shape> shapes) {
-  float tiltedEdge2 = 0, coordinate = 0;
-  const auto look = [&](const std::vector<glm::uvec3>& triangles, const Vec3f* positions,
-                        bool moves) {
-    for (const glm::uvec3& t : triangles) {
-      const Vec3f &a = positions[t.x], &b = positions[t.y], &c = positions[t.z];
-      coordinate =
-          std::max({coordinate, largestCoordinate(a), largestCoordinate(b), largestCoordinate(c)});
-      // Parallel to a coordinate plane: Embree's arithmetic is exact across it.
-      if (!moves &&
-          ((a.x == b.x && a.x == c.x) || (a.y == b.y && a.y == c.y) || (a.z == b.z && a.z == c.z)))
-        continue;
-      const Vec3f e1 = b - a, e2 = c - a, e3 = c - b;
-      tiltedEdge2 = std::max({tiltedEdge2, dot(e1, e1), dot(e2, e2), dot(e3, e3)});
-    }
+void vastBounds(const RTCBoundsFunctionArguments* arguments) {
+  const auto& vast = *static_cast<const VastTriangles*>(arguments->geometryUserPtr);
+  const std::uint32_t triangle = vast.triangles[arguments->primID];
+  const auto bound = [&](const glm::uvec3& t, const Vec3f* p) {
+    setBounds(glm::min(p[t.x], glm::min(p[t.y], p[t.z])),
+              glm::max(p[t.x], glm::max(p[t.y], p[t.z])), *arguments->bounds_o);
   };
-  for (const Shape& shape : shapes) {
-    if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry))
-      look(mesh->triangles, mesh->positions.data(), false);
-    else if (const auto* moving = std::get_if<MovingMesh>(&shape.geometry))
-      for (std::size_t i = 0; i < moving->positions.size(); i += moving->vertices())
-        look(moving->triangles, moving->positions.data() + i, true);
+  if (const auto* mesh = std::get_if<TriangleMesh>(&vast.shape->geometry)) {
+    bound(mesh->triangles[triangle], mesh->positions.data());
+  } else {
+    const auto& moving = std::get<MovingMesh>(vast.shape->geometry);
+    bound(moving.triangles[triangle],
+          moving.positions.data() + arguments->timeStep * moving.vertices());
   }
-  return std::sqrt(tiltedEdge2) * kTriangleOffset + coordinate * kLeastOffset;
+}
+
+void vastIntersect(const RTCIntersectFunctionNArguments* arguments) {
+  if (!arguments->valid[0]) return;
+  const auto& vast = *static_cast<const VastTriangles*>(arguments->geometryUserPtr);
+  double t;
+  if (hitTriangle(*vast.shape, vast.triangles[arguments->primID],
+                  segmentOf(RTCRayHitN_RayN(arguments->rayhit, 1)), t))
+    setHit(arguments, t, 0);
+}
+
+void vastOccluded(const RTCOccludedFunctionNArguments* arguments) {
+  if (!arguments->valid[0]) return;
+  const auto& vast = *static_cast<const VastTriangles*>(arguments->geometryUserPtr);
+  double t;
+  if (hitTriangle(*vast.shape, vast.triangles[arguments->primID], segmentOf(arguments->ray), t))
+    setOccluded(arguments->ray);
 }
 
 }  // namespace
 
 struct RayTracer::Impl {
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
-  std::span<const Shape> shapes;
-  float slack = 0;  // the part of the offset that does not depend on where a ray starts
-
+  explicit Impl(std::span<const Shape> s) : shapes(s), offset(s) {}
   ~Impl() {
     if (scene) rtcReleaseScene(scene);
     if (device) rtcReleaseDevice(device);
   }
 
-  // How far from `origin` rays start along the normal.
-  float offsetAt(const Vec3f& origin) const {
-    return largestCoordinate(origin) * kRelativeOffset + slack;
-  }
-  // The origin, moved off its surface to the side that `direction` points to.
-  Vec3f leave(const Vec3f& origin, const Vec3f& normal, const Vec3f& direction) const {
-    const float distance = offsetAt(origin);
-    return origin + normal * (dot(normal, direction) < 0 ? -distance : distance);
-  }
-
   void attach(std::size_t index);
+  void attachMesh(std::size_t index);
+  void attachVast(std::size_t index);
+  // Commits it and gives it up to the scene.
+  void add(RTCGeometry geometry, std::size_t id);
+
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  std::span<const Shape> shapes;
+  RayOffset offset;
+  std::deque<VastTriangles> vast;  // geometries shapes.size() and on
 };
 
-void RayTracer::Impl::attach(std::size_t index) {
-  const Shape& shape = shapes[index];
-  const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry);
-  const auto* moving = std::get_if<MovingMesh>(&shape.geometry);
-  if ((mesh && mesh->triangles.empty()) || (moving && moving->triangles.empty())) return;
-  const RTCGeometry geometry =
-      rtcNewGeometry(device, shape.isMesh() ? RTC_GEOMETRY_TYPE_TRIANGLE : RTC_GEOMETRY_TYPE_USER);
-  const auto steps = static_cast<unsigned>(shape.motionSegments() + 1);
-  rtcSetGeometryTimeStepCount(geometry, steps);
-  if (shape.isMesh()) {
-    // Copies: Embree reads a few bytes beyond the last vertex.
-    const auto copy = [&](RTCBufferType type, unsigned slot, RTCFormat format, const auto& from,
-                          std::size_t first, std::size_t count) {
-      void* to = rtcSetNewGeometryBuffer(geometry, type, slot, format, sizeof(from[0]), count);
-      if (to) std::memcpy(to, from.data() + first, count * sizeof(from[0]));
-    };
-    const auto& triangles = mesh ? mesh->triangles : moving->triangles;
-    const auto& positions = mesh ? mesh->positions : moving->positions;
-    const std::size_t vertices = positions.size() / steps;
-    for (unsigned k = 0; k < steps; ++k)
-      copy(RTC_BUFFER_TYPE_VERTEX, k, RTC_FORMAT_FLOAT3, positions, k * vertices, vertices);
-    copy(RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles, 0, triangles.size());
-  } else {
-    rtcSetGeometryUserPrimitiveCount(geometry, 1);
-    rtcSetGeometryUserData(geometry, const_cast<Shape*>(&shape));
-    rtcSetGeometryBoundsFunction(geometry, shapeBounds, nullptr);
-    rtcSetGeometryIntersectFunction(geometry, shapeIntersect);
-    rtcSetGeometryOccludedFunction(geometry, shapeOccluded);
-  }
+void RayTracer::Impl::add(RTCGeometry geometry, std::size_t id) {
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
   rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene, geometry, static_cast<unsigned>(index));
+  rtcAttachGeometryByID(scene, geometry, static_cast<unsigned>(id));
   rtcReleaseGeometry(geometry);
 }
 
-RayTracer::RayTracer(std::span<const Shape> shapes) : impl_(std::make_unique<Impl>()) {
+void RayTracer::Impl::attachMesh(std::size_t index) {
+  const Shape& shape = shapes[index];
+  const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry);
+  const auto* moving = std::get_if<MovingMesh>(&shape.geometry);
+  std::vector<glm::uvec3> triangles = mesh ? mesh->triangles : moving->triangles;
+  if (triangles.size() == offset.vast(index).size()) return;
+  // Points, which no ray meets.
+  for (const std::uint32_t i : offset.vast(index)) triangles[i] = glm::uvec3(triangles[i].x);
+  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  const auto steps = static_cast<unsigned>(shape.motionSegments() + 1);
+  rtcSetGeometryTimeStepCount(geometry, steps);
+  // Copies: Embree reads a few bytes beyond the last vertex.
+  const auto copy = [&](RTCBufferType type, unsigned slot, RTCFormat format, const auto& from,
+                        std::size_t first, std::size_t count) {
+    void* to = rtcSetNewGeometryBuffer(geometry, type, slot, format, sizeof(from[0]), count);
+    if (to) std::memcpy(to, from.data() + first, count * sizeof(from[0]));
+  };
+  const auto& positions = mesh ? mesh->positions : moving->positions;
+  const std::size_t vertices = positions.size() / steps;
+  for (unsigned k = 0; k < steps; ++k)
+    copy(RTC_BUFFER_TYPE_VERTEX, k, RTC_FORMAT_FLOAT3, positions, k * vertices, vertices);
+  copy(RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles, 0, triangles.size());
+  add(geometry, index);
+}
+
+void RayTracer::Impl::attachVast(std::size_t index) {
+  const std::span<const std::uint32_t> triangles = offset.vast(index);
+  if (triangles.empty()) return;
+  vast.push_back({&shapes[index], static_cast<std::uint32_t>(index), triangles});
+  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(shapes[index].motionSegments() + 1));
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(triangles.size()));
+  rtcSetGeometryUserData(geometry, &vast.back());
+  rtcSetGeometryBoundsFunction(geometry, vastBounds, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, vastIntersect);
+  rtcSetGeometryOccludedFunction(geometry, vastOccluded);
+  add(geometry, shapes.size() + vast.size() - 1);
+}
+
+void RayTracer::Impl::attach(std::size_t index) {
+  const Shape& shape = shapes[index];
+  if (shape.isMesh()) {
+    attachMesh(index);
+    attachVast(index);
+    return;
+  }
+  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(shape.motionSegments() + 1));
+  rtcSetGeometryUserPrimitiveCount(geometry, 1);
+  rtcSetGeometryUserData(geometry, const_cast<Shape*>(&shape));
+  rtcSetGeometryBoundsFunction(geometry, roundBounds, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, roundIntersect);
+  rtcSetGeometryOccludedFunction(geometry, roundOccluded);
+  add(geometry, index);
+}
+
+RayTracer::RayTracer(std::span<const Shape> shapes) : impl_(std::make_unique<Impl>(shapes)) {
   // Embree's builder may order triangles by how its threads run. One thread always builds the same
   // tree, which gives the same hit where two triangles are equally far.
   const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
-  impl_->shapes = shapes;
   impl_->device = rtcNewDevice(nullptr);
   checkDevice(impl_->device);
   impl_->scene = rtcNewScene(impl_->device);
@@ -293,35 +284,37 @@ RayTracer::RayTracer(std::span<const Shape> shapes) : impl_(std::make_unique<Imp
   for (std::size_t i = 0; i < shapes.size(); ++i) impl_->attach(i);
   rtcCommitScene(impl_->scene);
   checkDevice(impl_->device);
-  impl_->slack = leastOffset(shapes);
 }
 
 RayTracer::~RayTracer() = default;
 
-PrimitiveId RayTracer::intersect(const Vec3f& origin, const Vec3f& normal, const Vec3f& direction,
-                                 float minDistance, float maxDistance, float time) const {
+PrimitiveId RayTracer::intersect(const RayEnd& from, const Vec3f& direction, float minDistance,
+                                 float maxDistance, float time) const {
   RTCRayHit hit;
   hit.ray =
-      makeRay(impl_->leave(origin, normal, direction), direction, minDistance, maxDistance, time);
+      makeRay(impl_->offset.leave(from, direction), direction, minDistance, maxDistance, time);
   hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   if (!intersect1(impl_->scene, hit)) return {};
+  if (const std::size_t shapes = impl_->shapes.size(); hit.hit.geomID >= shapes) {
+    const VastTriangles& vast = impl_->vast[hit.hit.geomID - shapes];
+    return {vast.index, vast.triangles[hit.hit.primID]};
+  }
   const bool mesh = impl_->shapes[hit.hit.geomID].isMesh();
   return {hit.hit.geomID, mesh ? hit.hit.primID : static_cast<std::uint32_t>(hit.hit.u)};
 }
 
-bool RayTracer::visible(const Vec3f& from, const Vec3f& fromNormal, const Vec3f& to,
-                        const Vec3f& toNormal, float time) const {
-  const Vec3f segment = to - from;
-  const Vec3f start = impl_->leave(from, fromNormal, segment);
-  const Vec3f end = impl_->leave(to, toNormal, -segment);
+bool RayTracer::visible(const RayEnd& from, const RayEnd& to, float time) const {
+  if (RayOffset::inPlane(from, to.p) || RayOffset::inPlane(to, from.p)) return false;
+  const Vec3f segment = to.p - from.p;
+  const Vec3f start = impl_->offset.leave(from, segment);
+  const Vec3f end = impl_->offset.leave(to, -segment);
   RTCRay ray = makeRay(start, end - start, 0, 1 - kShortening, time);
   return !occluded1(impl_->scene, ray);
 }
 
-bool RayTracer::escapes(const Vec3f& origin, const Vec3f& normal, const Vec3f& direction,
-                        float time) const {
-  RTCRay ray = makeRay(impl_->leave(origin, normal, direction), direction, 0,
+bool RayTracer::escapes(const RayEnd& from, const Vec3f& direction, float time) const {
+  RTCRay ray = makeRay(impl_->offset.leave(from, direction), direction, 0,
                        std::numeric_limits<float>::infinity(), time);
   return !occluded1(impl_->scene, ray);
 }

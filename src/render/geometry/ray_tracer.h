@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Visibility, by Embree. The only module that knows Embree.
 //
 // `time` is the moment in [0, 1] of the shutter's opening. Embree moves what moves in the same steps as
@@ -18,19 +19,16 @@ class RayTracer {
   explicit RayTracer(std::span<const Shape> shapes);
   ~RayTracer();
 
-  // The first primitive along the ray from `origin` (unit direction). For an origin on a surface
-  // pass its geometric normal: the ray starts a few ulps off the surface, on the direction's side;
-  // otherwise pass a zero vector. Invalid when nothing is hit. Thread-safe.
-  PrimitiveId intersect(const Vec3f& origin, const Vec3f& normal, const Vec3f& direction,
-                        float minDistance = 0, float maxDistance = kFar, float time = 0) const;
+  // The first primitive along the ray in unit direction `direction`. From a surface it starts a few ulps off it,
+  // on the direction's side (ray_offset.h). Invalid when nothing is hit. Thread-safe, as the others.
+  PrimitiveId intersect(const RayEnd& from, const Vec3f& direction, float minDistance = 0,
+                        float maxDistance = kFar, float time = 0) const;
 
-  // True when nothing lies between two points, both offset along their normals towards each other
-  // (zero normal: no offset). Thread-safe.
-  bool visible(const Vec3f& from, const Vec3f& fromNormal, const Vec3f& to, const Vec3f& toNormal,
-               float time = 0) const;
+  // True when nothing lies between the two, both moved off their surfaces towards each other. False when one lies in
+  // the plane of the other's surface.
+  bool visible(const RayEnd& from, const RayEnd& to, float time = 0) const;
   // True when a ray leaves the scene.
-  bool escapes(const Vec3f& origin, const Vec3f& normal, const Vec3f& direction,
-               float time = 0) const;
+  bool escapes(const RayEnd& from, const Vec3f& direction, float time = 0) const;
 
   static constexpr float kFar = 1e30f;
 

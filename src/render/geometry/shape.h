@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Shapes in world space. Transforms are applied when the scene is read.
 #pragma once
 
@@ -34,6 +35,14 @@ struct Disk {
   Vec3f normal{0, 0, 1};  // unit, flipped already where the scene says so
 };
 
+// Open: without its two lids.
+struct Cylinder {
+  Vec3f start{0}, end{0, 0, 1};  // the lids' centres
+  float radius = 1;
+  Vec3f axisX{1, 0, 0};  // across: towards texture coordinate u = 0
+  bool flipNormals = false;
+};
+
 // Shapes that move: their state at equally spaced moments of the shutter's opening, from its
 // beginning to its end. Between two of these steps every number goes in a straight line (normals are
 // brought to unit length afterwards): that is how Embree sees motion, so it is what motion is here.
@@ -56,7 +65,12 @@ struct MovingDisk {
   std::vector<Disk> steps;  // at least 2
 };
 
-using Geometry = std::variant<TriangleMesh, Sphere, Disk, MovingMesh, MovingSphere, MovingDisk>;
+struct MovingCylinder {
+  std::vector<Cylinder> steps;  // at least 2
+};
+
+using Geometry = std::variant<TriangleMesh, Sphere, Disk, Cylinder, MovingMesh, MovingSphere,
+                              MovingDisk, MovingCylinder>;
 
 struct Shape {
   std::string name;  // id or plugin name with file, for messages
@@ -64,8 +78,13 @@ struct Shape {
   int material = -1;  // index into Scene::materials
   int light = -1;     // index into Scene::lights of the area light on it, or -1
 
-  bool isMesh() const { return geometry.index() == 0 || geometry.index() == 3; }
-  bool moves() const { return geometry.index() >= 3; }
+  bool isMesh() const { return geometry.index() == 0 || geometry.index() == 4; }
+  bool moves() const { return geometry.index() >= 4; }
+  // Lines meet it twice: which of the two is a PrimitiveId's `primitive`.
+  bool hasTwoRoots() const {
+    const std::size_t i = geometry.index();
+    return i == 1 || i == 3 || i == 5 || i == 7;
+  }
   // Into how many pieces of equal length the shutter's opening is cut for it; 0 if it does not move.
   int motionSegments() const;
 };

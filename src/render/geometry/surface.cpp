@@ -1,19 +1,20 @@
+// SPDX-License-Identifier: MIT
 #include "render/geometry/surface.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "render/core/index.h"
+#include "render/core/unit_interval.h"
 namespace h2mc {
 namespace {
 
 constexpr double kTolerance = 1e-3;
 
-float coordinate(double x) { return std::clamp(static_cast<float>(x), 0.0f, 0x1.fffffep-1f); }
-
 float turnsOf(double y, double x) {
   const double t = std::atan2(y, x) / (2 * std::numbers::pi);
-  return coordinate(t < 0 ? t + 1 : t);
+  return toUnitInterval(t < 0 ? t + 1 : t);
 }
 
 // Coordinates of p along two edges, and whether p is in their plane.
@@ -37,7 +38,7 @@ bool invertTriangle(const detail::Triangle<P>& triangle, const Vec3f& p, Vec2f& 
   if (!inside(b1) || !inside(b2) || !inside(b1 + b2)) return false;
   b1 = std::clamp(b1, 0.0, 1.0);
   // b1 = 1 - sqrt(1 - u0), b2 = u1 sqrt(1 - u0)
-  u = {coordinate(b1 * (2 - b1)), b1 < 1 ? coordinate(b2 / (1 - b1)) : 0.0f};
+  u = {toUnitInterval(b1 * (2 - b1)), b1 < 1 ? toUnitInterval(b2 / (1 - b1)) : 0.0f};
   return true;
 }
 
@@ -48,7 +49,7 @@ bool invertParallelogram(const detail::Triangle<P>& triangle, const Vec3f& p, Ve
   if (!planeCoordinates(triangle.ab, triangle.ac - triangle.ab, glm::dvec3(p) - triangle.a, x, y))
     return false;
   if (!inside(x) || !inside(y)) return false;
-  u = {coordinate(x), coordinate(y)};
+  u = {toUnitInterval(x), toUnitInterval(y)};
   return true;
 }
 
@@ -58,7 +59,19 @@ bool invertSphere(const detail::SphereView<float>& sphere, const Vec3f& p, Vec2f
   if (!(std::abs(distance - static_cast<double>(sphere.radius)) <=
         kTolerance * static_cast<double>(sphere.radius)))
     return false;
-  u = {coordinate((1 - d.z / distance) / 2), turnsOf(d.y, d.x)};
+  u = {toUnitInterval((1 - d.z / distance) / 2), turnsOf(d.y, d.x)};
+  return true;
+}
+
+bool invertCylinder(const detail::CylinderView<float>& view, const Vec3f& p, Vec2f& u) {
+  const glm::dvec3 way = glm::dvec3(p) - view.exactStart;
+  const double z = glm::dot(way, view.exactAxis) / view.exactHeight;
+  const glm::dvec3 across = way - view.exactAxis * (z * view.exactHeight);
+  const double distance = std::sqrt(glm::dot(across, across));
+  if (!(std::abs(distance - view.exactRadius) <= kTolerance * view.exactRadius) || !inside(z))
+    return false;
+  u = {toUnitInterval(z),
+       turnsOf(glm::dot(across, glm::dvec3(view.y)), glm::dot(across, glm::dvec3(view.x)))};
   return true;
 }
 
@@ -68,7 +81,7 @@ bool invertDisk(const detail::DiskView<float>& disk, const Vec3f& p, Vec2f& u) {
     return false;
   const double r2 = x * x + y * y;
   if (r2 > 1 + 2 * kTolerance) return false;
-  u = {coordinate(r2), turnsOf(y, x)};
+  u = {toUnitInterval(r2), turnsOf(y, x)};
   return true;
 }
 
@@ -81,6 +94,12 @@ double triangleArea(const detail::Triangle<P>& triangle) {
 double diskArea(const Disk& disk) {
   const glm::dvec3 n = glm::cross(glm::dvec3(disk.axisX), glm::dvec3(disk.axisY));
   return std::numbers::pi * std::sqrt(glm::dot(n, n));
+}
+
+double cylinderArea(const Cylinder& cylinder) {
+  const glm::dvec3 way = glm::dvec3(cylinder.end) - glm::dvec3(cylinder.start);
+  return 2 * std::numbers::pi * static_cast<double>(cylinder.radius) *
+         std::sqrt(glm::dot(way, way));
 }
 
 double sphereArea(const Sphere& sphere) {
@@ -120,13 +139,17 @@ int Shape::motionSegments() const {
     return static_cast<int>(sphere->steps.size()) - 1;
   if (const auto* disk = std::get_if<MovingDisk>(&geometry))
     return static_cast<int>(disk->steps.size()) - 1;
+  if (const auto* cylinder = std::get_if<MovingCylinder>(&geometry))
+    return static_cast<int>(cylinder->steps.size()) - 1;
   return 0;
 }
 
 bool invertPrimitive(std::span<const Shape> shapes, PrimitiveId id, const Vec3f& p, Vec2f& u,
                      const float* time) {
   return detail::withView<float>(shapes[id.shape], time, [&](const auto& view) {
-    if constexpr (requires { view.radius; }) {
+    if constexpr (requires { view.height; }) {
+      return invertCylinder(view, p, u);
+    } else if constexpr (requires { view.radius; }) {
       return invertSphere(view, p, u);
     } else if constexpr (requires { view.axisX; }) {
       return invertDisk(view, p, u);
@@ -145,10 +168,13 @@ double totalArea(const Shape& shape) {
   }
   if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) return sphereArea(*sphere);
   if (const auto* disk = std::get_if<Disk>(&shape.geometry)) return diskArea(*disk);
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape.geometry)) return cylinderArea(*cylinder);
   return meanOverSteps(shape.motionSegments(), [&](int step) {
-    const auto i = static_cast<std::size_t>(step);
+    const auto i = at(step);
     if (const auto* sphere = std::get_if<MovingSphere>(&shape.geometry))
       return sphereArea(sphere->steps[i]);
+    if (const auto* cylinder = std::get_if<MovingCylinder>(&shape.geometry))
+      return cylinderArea(cylinder->steps[i]);
     return diskArea(std::get<MovingDisk>(shape.geometry).steps[i]);
   });
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Points on primitives as functions of a ray or of primary coordinates, over any scalar type.
 //
 // The value of a point is the surface's own at the coordinates found (a combination of the
@@ -9,6 +10,7 @@
 #include <span>
 
 #include "render/geometry/shape.h"
+#include "render/geometry/surface_cylinder.h"
 #include "render/geometry/surface_disk.h"
 #include "render/geometry/surface_point.h"
 #include "render/geometry/surface_sphere.h"
@@ -21,10 +23,12 @@ namespace detail {
 template <class T, class View>
 SurfacePoint<T> intersectView(const View& view, std::uint32_t primitive, const Vec3<T>& origin,
                               const Vec3<T>& direction) {
-  if constexpr (requires {
-                  view.center;
-                  view.radius;
-                })
+  if constexpr (requires { view.height; })
+    return intersectCylinder<T>(view, primitive, origin, direction);
+  else if constexpr (requires {
+                       view.center;
+                       view.radius;
+                     })
     return intersectSphere<T>(view, primitive, origin, direction);
   else if constexpr (requires { view.axisX; })
     return intersectDisk<T>(view, origin, direction);
@@ -34,10 +38,12 @@ SurfacePoint<T> intersectView(const View& view, std::uint32_t primitive, const V
 
 template <class T, class View>
 SurfacePoint<T> sampleView(const View& view, std::uint32_t primitive, const T& u0, const T& u1) {
-  if constexpr (requires {
-                  view.center;
-                  view.radius;
-                })
+  if constexpr (requires { view.height; })
+    return sampleCylinder<T>(view, u0, u1);
+  else if constexpr (requires {
+                       view.center;
+                       view.radius;
+                     })
     return sampleSphere<T>(view, u0, u1);
   else if constexpr (requires { view.axisX; })
     return sampleDisk<T>(view, u0, u1);
@@ -49,10 +55,13 @@ SurfacePoint<T> sampleView(const View& view, std::uint32_t primitive, const T& u
 
 template <class View>
 auto areaOfView(const View& view, std::uint32_t primitive) {
-  if constexpr (requires {
-                  view.center;
-                  view.radius;
-                }) {
+  if constexpr (requires { view.height; }) {
+    using P = decltype(view.radius);
+    return P(view.radius * view.height * Scalar<P>(2 * std::numbers::pi));
+  } else if constexpr (requires {
+                         view.center;
+                         view.radius;
+                       }) {
     using P = decltype(view.radius);
     return P(view.radius * view.radius * Scalar<P>(4 * std::numbers::pi));
   } else if constexpr (requires { view.axisX; }) {
@@ -89,14 +98,16 @@ auto withView(const Shape& shape, const T* time, F&& f) {
     return f(MeshAtMoment<T>(*mesh, *time));
   if (const auto* sphere = std::get_if<MovingSphere>(&geometry))
     return f(viewOf<T>(*sphere, *time));
-  return f(viewOf<T>(*std::get_if<MovingDisk>(&geometry), *time));
+  if (const auto* disk = std::get_if<MovingDisk>(&geometry)) return f(viewOf<T>(*disk, *time));
+  if (const auto* cylinder = std::get_if<Cylinder>(&geometry)) return f(viewOf<S>(*cylinder));
+  return f(viewOf<T>(*std::get_if<MovingCylinder>(&geometry), *time));
 }
 
 }  // namespace detail
 
 // Where the line from `origin` along unit `direction` meets the primitive's (extended) surface: the
-// plane of a triangle or disk, the chosen root of a sphere. What RayTracer found is recomputed here,
-// so that derivatives and values come from the same lines. Precondition: the ray is not parallel.
+// plane of a triangle or disk, the chosen root of a sphere or of a cylinder that goes on beyond its ends. RayTracer's
+// hits are recomputed, so that derivatives and values come from the same lines. Precondition: the ray is not parallel.
 //
 // `time`, here and below: the moment in [0, 1] of the shutter's opening. May be null if the shape does
 // not move.
@@ -104,9 +115,11 @@ template <class T>
 SurfacePoint<T> intersectPrimitive(std::span<const Shape> shapes, PrimitiveId id,
                                    const Vec3<T>& origin, const Vec3<T>& direction,
                                    const std::type_identity_t<T>* time = nullptr) {
-  return detail::withView<T>(shapes[id.shape], time, [&](const auto& view) {
+  SurfacePoint<T> point = detail::withView<T>(shapes[id.shape], time, [&](const auto& view) {
     return detail::intersectView<T>(view, id.primitive, origin, direction);
   });
+  point.shape = id.shape;
+  return point;
 }
 
 // The same point by two coordinates on the surface, which pointOnPrimitive understands: what passes
@@ -118,7 +131,10 @@ Vec2<T> coordinatesOnPrimitive(std::span<const Shape> shapes, PrimitiveId id, co
                                const Vec3<T>& origin, const Vec3<T>& direction, T& distance,
                                const std::type_identity_t<T>* time = nullptr) {
   return detail::withView<T>(shapes[id.shape], time, [&](const auto& view) -> Vec2<T> {
-    if constexpr (requires { view.radius; })
+    if constexpr (requires { view.height; })
+      return detail::cylinderCoordinates<T>(view, id.primitive, Vec3<Scalar<T>>(around), origin,
+                                            direction, distance);
+    else if constexpr (requires { view.radius; })
       return detail::chartAround(view, Vec3<Scalar<T>>(around))
           .coordinates(detail::meetSphere<T>(view, id.primitive, origin, direction, distance));
     else if constexpr (requires { view.axisX; })
@@ -131,26 +147,33 @@ Vec2<T> coordinatesOnPrimitive(std::span<const Shape> shapes, PrimitiveId id, co
 template <class T>
 SurfacePoint<T> pointOnPrimitive(std::span<const Shape> shapes, PrimitiveId id, const Vec3f& around,
                                  const Vec2<T>& at, const std::type_identity_t<T>* time = nullptr) {
-  return detail::withView<T>(shapes[id.shape], time, [&](const auto& view) -> SurfacePoint<T> {
-    if constexpr (requires { view.radius; })
-      return detail::spherePoint<T>(
-          view, detail::chartAround(view, Vec3<Scalar<T>>(around)).direction(at));
-    else if constexpr (requires { view.axisX; })
-      return detail::diskPoint<T>(view, at.x, at.y);
-    else
-      return detail::trianglePointAt<T>(view, id.primitive, at);
-  });
+  SurfacePoint<T> point =
+      detail::withView<T>(shapes[id.shape], time, [&](const auto& view) -> SurfacePoint<T> {
+        if constexpr (requires { view.height; })
+          return detail::cylinderPointAt<T>(view, Vec3<Scalar<T>>(around), at);
+        else if constexpr (requires { view.radius; })
+          return detail::spherePoint<T>(
+              view, detail::chartAround(view, Vec3<Scalar<T>>(around)).direction(at));
+        else if constexpr (requires { view.axisX; })
+          return detail::diskPoint<T>(view, at.x, at.y);
+        else
+          return detail::trianglePointAt<T>(view, id.primitive, at);
+      });
+  point.shape = id.shape;
+  return point;
 }
 
-// A point uniform by area on the primitive (on the whole shape for spheres, disks and
+// A point uniform by area on the primitive (on the whole shape for what is no mesh and for
 // parallelograms) from u in [0,1)^2. Derivatives are finite everywhere; they grow without bound
 // towards a triangle's corner (u0 -> 1), a sphere's poles and a disk's centre.
 template <class T>
 SurfacePoint<T> samplePrimitive(std::span<const Shape> shapes, PrimitiveId id, const T& u0,
                                 const T& u1, const std::type_identity_t<T>* time = nullptr) {
-  return detail::withView<T>(shapes[id.shape], time, [&](const auto& view) {
+  SurfacePoint<T> point = detail::withView<T>(shapes[id.shape], time, [&](const auto& view) {
     return detail::sampleView<T>(view, id.primitive, u0, u1);
   });
+  point.shape = id.shape;
+  return point;
 }
 
 // The inverse: coordinates with samplePrimitive(...) at `p`; false when `p` does not lie on the

@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: MIT
 // Points on disks (ellipses, in general).
 #pragma once
 
+#include "render/core/index.h"
 #include "render/core/safe_math.h"
 #include "render/geometry/moment.h"
 #include "render/geometry/shape.h"
@@ -26,8 +28,7 @@ DiskView<S> viewOf(const Disk& disk) {
 template <class T>
 DiskView<T> viewOf(const MovingDisk& disk, const T& time) {
   const auto moment = Moment<T>::at(static_cast<int>(disk.steps.size()) - 1, time);
-  const Disk &a = disk.steps[static_cast<std::size_t>(moment.index)],
-             &b = disk.steps[static_cast<std::size_t>(moment.index) + 1];
+  const Disk &a = disk.steps[at(moment.index)], &b = disk.steps[at(moment.index) + 1];
   DiskView<T> r;
   r.center = moment.between(a.center, b.center);
   r.axisX = moment.between(a.axisX, b.axisX);

@@ -1,7 +1,9 @@
+// SPDX-License-Identifier: MIT
 // Points on spheres.
 #pragma once
 
 #include "render/core/direction_chart.h"
+#include "render/core/index.h"
 #include "render/core/safe_math.h"
 #include "render/geometry/moment.h"
 #include "render/geometry/shape.h"
@@ -34,8 +36,7 @@ SphereView<S> viewOf(const Sphere& sphere) {
 template <class T>
 SphereView<T> viewOf(const MovingSphere& sphere, const T& time) {
   const auto moment = Moment<T>::at(static_cast<int>(sphere.steps.size()) - 1, time);
-  const Sphere &a = sphere.steps[static_cast<std::size_t>(moment.index)],
-               &b = sphere.steps[static_cast<std::size_t>(moment.index) + 1];
+  const Sphere &a = sphere.steps[at(moment.index)], &b = sphere.steps[at(moment.index) + 1];
   const auto row = [&](int i) {
     return moment.between(Vec3f(a.toLocal[0][i], a.toLocal[1][i], a.toLocal[2][i]),
                           Vec3f(b.toLocal[0][i], b.toLocal[1][i], b.toLocal[2][i]));

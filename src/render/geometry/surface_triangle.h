@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Points on triangles.
 #pragma once
 
@@ -14,6 +15,8 @@ struct Triangle {
   Vec3<P> normal;        // unit, by the order of the corners; zero if the triangle has no area
   P inverseArea2;        // 1 / |e1 x e2|
   glm::dvec3 a, ab, ac;  // values of p0, e1, e2
+  glm::dvec3 across;     // value of `normal`
+  double scale;          // of inverseArea2
 };
 
 template <class View>
@@ -29,6 +32,8 @@ auto triangleOf(const View& mesh, std::uint32_t index) {
   const glm::dvec3 n = glm::cross(r.ab, r.ac);
   const double n2 = glm::dot(n, n);
   const double inverse = n2 > 0 ? 1 / std::sqrt(n2) : 0;
+  r.across = n * inverse;
+  r.scale = inverse;
   r.p0 = mesh.position(t.x);
   r.e1 = mesh.position(t.y) - r.p0;
   r.e2 = mesh.position(t.z) - r.p0;
@@ -38,10 +43,10 @@ auto triangleOf(const View& mesh, std::uint32_t index) {
     const S scale2 = S(std::min(inverse / static_cast<double>(scale1), 1e30));
     const Vec3<P> scaled = cross(r.e1 * scale1, r.e2) * scale2;  // of length 1, by value
     const P shrink = ad::rsqrt(length2(scaled));
-    r.normal = withValue(scaled * shrink, Vec3<S>(n * inverse));
+    r.normal = withValue(scaled * shrink, Vec3<S>(r.across));
     r.inverseArea2 = shrink * S(inverse);
   } else {
-    r.normal = Vec3<S>(n * inverse);
+    r.normal = Vec3<S>(r.across);
     r.inverseArea2 = S(inverse);
   }
   return r;
@@ -50,9 +55,8 @@ auto triangleOf(const View& mesh, std::uint32_t index) {
 // The point with barycentric coordinates b1, b2 to within half an ulp, however large the triangle
 // is: any rounding in b1 and b2 moves it along the triangle only.
 template <class P>
-Vec3<Scalar<P>> pointOnTriangle(const Triangle<P>& triangle, Scalar<P> b1, Scalar<P> b2) {
-  return Vec3<Scalar<P>>(triangle.a + triangle.ab * static_cast<double>(b1) +
-                         triangle.ac * static_cast<double>(b2));
+Vec3<Scalar<P>> pointOnTriangle(const Triangle<P>& triangle, double b1, double b2) {
+  return Vec3<Scalar<P>>(triangle.a + triangle.ab * b1 + triangle.ac * b2);
 }
 
 // Sets normals, frame and texture coordinates at barycentric coordinates b1, b2.
@@ -109,36 +113,78 @@ SurfacePoint<T> trianglePoint(const View& mesh, std::uint32_t index, const T& b1
          weighted2(b1, triangle.e1.y, b2, triangle.e2.y),
          weighted2(b1, triangle.e1.z, b2, triangle.e2.z)};
   if constexpr (ad::isDual<typename View::P>) r.p = r.p + triangle.p0;
-  setValue(r.p, pointOnTriangle(triangle, value(b1), value(b2)));
+  setValue(r.p, pointOnTriangle(triangle, double(value(b1)), double(value(b2))));
   finishTrianglePoint<T>(mesh, index, triangle.normal, b1, b2, r);
   return r;
 }
 
-// Where a line meets the triangle's plane, relative to its corner p0.
-template <class T, class P>
-Vec3<T> meetPlane(const Triangle<P>& triangle, const Vec3<T>& origin, const Vec3<T>& direction,
-                  T& distance) {
-  // Relative to a corner, so that everything is of the triangle's own magnitude.
-  const Vec3<T> start = origin - triangle.p0;
-  distance = -dot(start, triangle.normal) / dot(direction, triangle.normal);
-  return start + direction * distance;
+// Where a line meets the triangle's plane: values in double, since triangles may be far larger than what stands
+// on them.
+struct PlaneHit {
+  double distance;  // along the line
+  double b1, b2;    // barycentric coordinates
+};
+
+template <class P, class S>
+PlaneHit meetPlane(const Triangle<P>& triangle, const Vec3<S>& origin, const Vec3<S>& direction) {
+  const glm::dvec3 start = glm::dvec3(origin) - triangle.a, along(direction);
+  PlaneHit hit;
+  hit.distance = -glm::dot(start, triangle.across) / glm::dot(along, triangle.across);
+  const glm::dvec3 p = glm::cross(start + along * hit.distance, triangle.across) * triangle.scale;
+  hit.b1 = -glm::dot(p, triangle.ac);
+  hit.b2 = glm::dot(p, triangle.ab);
+  return hit;
 }
+
+// The same as a function: the point that is there by value, which the triangle takes along if it moves, and the way
+// from it to where the line meets the plane. That is zero by value, so that no digits are lost where the triangle is
+// far larger than the distance.
+template <class T, class P>
+struct PlanePoint {
+  PlaneHit hit;
+  Vec3<P> point;  // relative to the corner p0
+  Vec3<T> way;
+  T distance;
+
+  PlanePoint(const Triangle<P>& triangle, const Vec3<T>& origin, const Vec3<T>& direction)
+      : hit(meetPlane(triangle, value3(origin), value3(direction))) {
+    using S = Scalar<T>;
+    Vec3<T> start = origin;
+    if constexpr (ad::isDual<P>) {
+      point = triangle.e1 * S(hit.b1) + triangle.e2 * S(hit.b2);
+      start = start - (triangle.p0 + point);
+    } else {
+      point = Vec3<S>(triangle.ab * hit.b1 + triangle.ac * hit.b2);
+    }
+    setValue(start, Vec3<S>(glm::dvec3(value3(direction)) * -hit.distance));
+    distance = -dot(start, triangle.normal) / dot(direction, triangle.normal);
+    way = start + direction * distance;
+  }
+};
 
 template <class T, class View>
 SurfacePoint<T> intersectTriangle(const View& mesh, std::uint32_t index, const Vec3<T>& origin,
                                   const Vec3<T>& direction) {
   const auto triangle = triangleOf(mesh, index);
-  T distance;
-  const Vec3<T> p = meetPlane(triangle, origin, direction, distance);
-  // b1 and b2 are linear in p: the edges' dual basis.
-  const auto dual1 = cross(triangle.e2, triangle.normal) * triangle.inverseArea2;
-  const auto dual2 = cross(triangle.normal, triangle.e1) * triangle.inverseArea2;
-  const T b1 = dot(p, dual1), b2 = dot(p, dual2);
   SurfacePoint<T> r;
-  r.p = p;
-  if constexpr (ad::isDual<typename View::P>) r.p = r.p + triangle.p0;
-  setValue(r.p, pointOnTriangle(triangle, value(b1), value(b2)));
-  finishTrianglePoint<T>(mesh, index, triangle.normal, b1, b2, r);
+  if constexpr (ad::isDual<T>) {
+    using S = Scalar<T>;
+    const PlanePoint meets(triangle, origin, direction);
+    // b1 and b2 are linear in the point: the edges' dual basis.
+    const auto dual1 = cross(triangle.e2, triangle.normal) * triangle.inverseArea2;
+    const auto dual2 = cross(triangle.normal, triangle.e1) * triangle.inverseArea2;
+    T b1 = dot(meets.way, dual1), b2 = dot(meets.way, dual2);
+    b1.v = S(meets.hit.b1);
+    b2.v = S(meets.hit.b2);
+    r.p = meets.way;
+    if constexpr (ad::isDual<typename View::P>) r.p = r.p + (triangle.p0 + meets.point);
+    setValue(r.p, pointOnTriangle(triangle, meets.hit.b1, meets.hit.b2));
+    finishTrianglePoint<T>(mesh, index, triangle.normal, b1, b2, r);
+  } else {
+    const PlaneHit hit = meetPlane(triangle, origin, direction);
+    r.p = pointOnTriangle(triangle, hit.b1, hit.b2);
+    finishTrianglePoint<T>(mesh, index, triangle.normal, T(hit.b1), T(hit.b2), r);
+  }
   return r;
 }
 
@@ -160,8 +206,15 @@ Vec2<T> triangleCoordinates(const View& mesh, std::uint32_t index, const Vec3<T>
                             const Vec3<T>& direction, T& distance) {
   const auto triangle = triangleOf(mesh, index);
   const PlaneAxes axes(triangle);
-  const Vec3<T> p = meetPlane(triangle, origin, direction, distance);
-  return {dot(p, axes.x), dot(p, axes.y)};
+  const PlanePoint meets(triangle, origin, direction);
+  distance = meets.distance;
+  const auto along = [&](const auto& axis) -> T {
+    if constexpr (ad::isDual<typename View::P>)
+      return dot(meets.way + meets.point, axis);
+    else
+      return dot(meets.way, axis) + dot(meets.point, axis);
+  };
+  return {along(axes.x), along(axes.y)};
 }
 
 template <class T, class View>
@@ -176,7 +229,7 @@ SurfacePoint<T> trianglePointAt(const View& mesh, std::uint32_t index, const Vec
   r.p = {weighted2(at.x, axes.x.x, at.y, axes.y.x), weighted2(at.x, axes.x.y, at.y, axes.y.y),
          weighted2(at.x, axes.x.z, at.y, axes.y.z)};
   if constexpr (ad::isDual<typename View::P>) r.p = r.p + triangle.p0;
-  setValue(r.p, pointOnTriangle(triangle, value(b1), value(b2)));
+  setValue(r.p, pointOnTriangle(triangle, double(value(b1)), double(value(b2))));
   finishTrianglePoint<T>(mesh, index, triangle.normal, b1, b2, r);
   return r;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The sRGB transfer curve (IEC 61966-2-1).
 #pragma once
 

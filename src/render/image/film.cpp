@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/image/film.h"
 
 #include <algorithm>
@@ -10,27 +11,27 @@ namespace {
 // Steps of the filter's table: interpolation is then off by less than 1e-6 of the filter's peak.
 constexpr int kTableSteps = 2048;
 
-// The largest filter, in pixels each way: 2 * kMaxRadius + 2 weights fit on the stack.
-constexpr int kMaxRadius = 64;
-
 int pixelOf(float position, int size) {
   return std::clamp(static_cast<int>(position * static_cast<float>(size)), 0, size - 1);
 }
 
 }  // namespace
 
-struct Film::Weights {
-  int first = 0, count = 0;
-  float values[2 * kMaxRadius + 2];
+template <class Real>
+struct BasicFilm<Real>::Weights {
+  RowRange range;
+  float values[2 * static_cast<int>(Filter::kWidest) + 2];
 };
 
-Film::Film(const FilmSettings& settings)
-    : settings_(settings), pixels_(static_cast<std::size_t>(settings.width) * settings.height) {
-  Filter& filter = settings_.filter;
-  filter.radius = std::min(filter.radius, static_cast<float>(kMaxRadius));
+template <class Real>
+BasicFilm<Real>::BasicFilm(const FilmSettings& settings) : BasicFilm(settings, 0) {}
+
+template <class Real>
+BasicFilm<Real>::BasicFilm(const FilmSettings& settings, int step)
+    : settings_(settings), pixels_(pixelCount()), step_(step) {
+  const Filter& filter = settings_.filter;
+  assert(filter.radius >= Filter::kNarrowest && filter.radius <= Filter::kWidest);
   const bool box = filter.kind == Filter::Kind::kBox;
-  // A narrower box would leave part of the film unseen: Mitsuba's smallest is a pixel.
-  if (box) filter.radius = std::max(filter.radius, 0.5f);
   onePixel_ = box && filter.radius < 0.5f + 1e-3f;
   if (!box) {
     table_.resize(kTableSteps + 2);
@@ -38,17 +39,19 @@ Film::Film(const FilmSettings& settings)
     for (int i = 0; i <= kTableSteps; ++i)
       table_[i] = filter.evaluate(filter.radius * static_cast<float>(i) / kTableSteps);
     table_[kTableSteps + 1] = 0;
-    const double step = static_cast<double>(filter.radius) / kTableSteps;
+    const double spacing = static_cast<double>(filter.radius) / kTableSteps;
     for (int i = 0; i <= kTableSteps; ++i)
       integral_[i + 1] =
-          integral_[i] + 0.5 * step * (static_cast<double>(table_[i]) + table_[i + 1]);
+          integral_[i] + 0.5 * spacing * (static_cast<double>(table_[i]) + table_[i + 1]);
   }
   normalX_ = normalisation(settings_.width);
   normalY_ = normalisation(settings_.height);
+  clearHalves();
 }
 
 // Integral of the interpolated filter from `from` to `to`.
-double Film::filterIntegral(double from, double to) const {
+template <class Real>
+double BasicFilm<Real>::filterIntegral(double from, double to) const {
   const double radius = settings_.filter.radius;
   const auto primitive = [&](double x) {
     const double distance = std::min(std::abs(x), radius);
@@ -57,15 +60,16 @@ double Film::filterIntegral(double from, double to) const {
       const double position = distance / radius * kTableSteps;
       const int i = std::min(static_cast<int>(position), kTableSteps);
       const double f = position - i;
-      const double step = radius / kTableSteps;
-      area = integral_[i] + step * f * (table_[i] + 0.5 * f * (table_[i + 1] - table_[i]));
+      const double spacing = radius / kTableSteps;
+      area = integral_[i] + spacing * f * (table_[i] + 0.5 * f * (table_[i + 1] - table_[i]));
     }
     return x < 0 ? -area : area;
   };
   return primitive(to) - primitive(from);
 }
 
-std::vector<double> Film::normalisation(int size) const {
+template <class Real>
+std::vector<double> BasicFilm<Real>::normalisation(int size) const {
   std::vector<double> result(size, 1.0);
   if (onePixel_) return result;
   for (int i = 0; i < size; ++i) {
@@ -75,75 +79,126 @@ std::vector<double> Film::normalisation(int size) const {
   return result;
 }
 
-Film::Weights Film::weights(double position, int size) const {
+template <class Real>
+RowRange BasicFilm<Real>::reach(double position, int size) const {
   const double radius = settings_.filter.radius;
-  // Pixels whose centre is no further away than the radius.
+  return {std::max(0, static_cast<int>(std::ceil(position - radius - 0.5))),
+          std::min(size - 1, static_cast<int>(std::floor(position + radius - 0.5))) + 1};
+}
+
+template <class Real>
+RowRange BasicFilm<Real>::rowsOf(float filmY) const {
+  if (!onePixel_) return reach(static_cast<double>(filmY) * height(), height());
+  const int row = pixelOf(filmY, height());
+  return {row, row + 1};
+}
+
+template <class Real>
+typename BasicFilm<Real>::Weights BasicFilm<Real>::weights(double position, RowRange range) const {
+  const double radius = settings_.filter.radius;
   Weights w;
-  w.first = std::max(0, static_cast<int>(std::ceil(position - radius - 0.5)));
-  const int last = std::min(size - 1, static_cast<int>(std::floor(position + radius - 0.5)));
-  w.count = last - w.first + 1;
-  for (int i = 0; i < w.count; ++i) {
-    const double distance = std::abs(w.first + i + 0.5 - position);
+  w.range = range;
+  for (int i = range.begin; i < range.end; ++i) {
+    float& value = w.values[i - range.begin];
     if (table_.empty()) {
-      w.values[i] = 1;
+      value = 1;
     } else {
-      const double t = std::min(distance / radius, 1.0) * kTableSteps;
+      const double t = std::min(std::abs(i + 0.5 - position) / radius, 1.0) * kTableSteps;
       const int k = static_cast<int>(t);
       const float f = static_cast<float>(t - k);
-      w.values[i] = table_[k] + f * (table_[k + 1] - table_[k]);
+      value = table_[k] + f * (table_[k + 1] - table_[k]);
     }
   }
   return w;
 }
 
-void Film::splat(float filmX, float filmY, const Rgbf& value) {
+template <class Real>
+void BasicFilm<Real>::splat(float filmX, float filmY, const Rgbf& value, RowRange rows, int half) {
   assert(std::isfinite(value.x) && std::isfinite(value.y) && std::isfinite(value.z));
-  const int width = settings_.width, height = settings_.height;
+  const int width = settings_.width;
   if (onePixel_) {
-    Accumulator& p =
-        pixels_[static_cast<std::size_t>(pixelOf(filmY, height)) * width + pixelOf(filmX, width)];
-    p.r += value.x;
-    p.g += value.y;
-    p.b += value.z;
+    const int x = pixelOf(filmX, width), y = pixelOf(filmY, settings_.height);
+    if (y < rows.begin || y >= rows.end) return;
+    Accumulator& p = pixels_[at(y) * at(width) + at(x)];
+    for (int c = 0; c < 3; ++c) p[at(c)] += static_cast<Real>(value[c]);
+    if (step_ > 0 && y % step_ == 0) addToHalf(half, x, y, luminance(value));
     return;
   }
-  const Weights wx = weights(static_cast<double>(filmX) * width, width);
-  const Weights wy = weights(static_cast<double>(filmY) * height, height);
-  for (int y = 0; y < wy.count; ++y) {
-    Accumulator* row = &pixels_[static_cast<std::size_t>(wy.first + y) * width];
-    for (int x = 0; x < wx.count; ++x) {
-      const double w = static_cast<double>(wx.values[x]) * wy.values[y];
-      Accumulator& p = row[wx.first + x];
-      p.r += w * value.x;
-      p.g += w * value.y;
-      p.b += w * value.z;
+  const double positionX = static_cast<double>(filmX) * width;
+  const double positionY = static_cast<double>(filmY) * settings_.height;
+  RowRange inY = reach(positionY, settings_.height);
+  inY = {std::max(inY.begin, rows.begin), std::min(inY.end, rows.end)};
+  if (inY.begin >= inY.end) return;
+  const Weights wx = weights(positionX, reach(positionX, width)), wy = weights(positionY, inY);
+  for (int y = inY.begin; y < inY.end; ++y) {
+    const bool measured = step_ > 0 && y % step_ == 0;
+    for (int x = wx.range.begin; x < wx.range.end; ++x) {
+      const double w =
+          static_cast<double>(wx.values[x - wx.range.begin]) * wy.values[y - inY.begin];
+      Accumulator& p = pixels_[at(y) * at(width) + at(x)];
+      for (int c = 0; c < 3; ++c) p[at(c)] += static_cast<Real>(w * value[c]);
+      if (measured) addToHalf(half, x, y, w * luminance(value));
     }
   }
 }
 
-void Film::merge(const Film& other) {
-  assert(pixels_.size() == other.pixels_.size());
-  for (std::size_t i = 0; i < pixels_.size(); ++i) {
-    pixels_[i].r += other.pixels_[i].r;
-    pixels_[i].g += other.pixels_[i].g;
-    pixels_[i].b += other.pixels_[i].b;
-  }
+template <class Real>
+void BasicFilm<Real>::clear() {
+  std::fill(pixels_.begin(), pixels_.end(), Accumulator{});
 }
 
-void Film::clear() { std::fill(pixels_.begin(), pixels_.end(), Accumulator{}); }
+template <class Real>
+void BasicFilm<Real>::clearHalves() {
+  if (step_ == 0) return;
+  for (auto& half : halves_) half.assign(at((height() - 1) / step_ + 1) * at(width()), 0);
+}
 
-Image Film::develop(double scale) const {
-  Image image(settings_.width, settings_.height);
+template <class Real>
+void BasicFilm<Real>::release() {
+  pixels_ = std::vector<Accumulator>();
+}
+
+template <class Real>
+void BasicFilm<Real>::reserve() {
+  pixels_.resize(pixelCount());
+}
+
+// What the sum in a pixel is to be multiplied with.
+template <class Real>
+double BasicFilm<Real>::factor(int x, int y, double scale) const {
   // The filter is in pixels: the film's area is width * height of them.
-  const double area = static_cast<double>(settings_.width) * settings_.height;
+  return scale * settings_.width * settings_.height / (normalX_[at(x)] * normalY_[at(y)]);
+}
+
+template <class Real>
+Rgbf BasicFilm<Real>::pixel(int x, int y, double scale) const {
+  const Accumulator& p = pixels_[at(y) * at(settings_.width) + at(x)];
+  const double s = factor(x, y, scale);
+  return Rgbf(static_cast<float>(p[0] * s), static_cast<float>(p[1] * s),
+              static_cast<float>(p[2] * s));
+}
+
+template <class Real>
+Image BasicFilm<Real>::develop(double scale) const {
+  Image image(settings_.width, settings_.height);
   for (int y = 0; y < settings_.height; ++y)
-    for (int x = 0; x < settings_.width; ++x) {
-      const Accumulator& p = pixels_[static_cast<std::size_t>(y) * settings_.width + x];
-      const double s = scale * area / (normalX_[x] * normalY_[y]);
-      image.at(x, y) = Rgbf(static_cast<float>(p.r * s), static_cast<float>(p.g * s),
-                            static_cast<float>(p.b * s));
+    for (int x = 0; x < settings_.width; ++x) image.at(x, y) = pixel(x, y, scale);
+  return image;
+}
+
+template <class Real>
+Image BasicFilm<Real>::developHalf(int half, double scale) const {
+  assert(step_ > 0);
+  Image image(settings_.width, (settings_.height - 1) / step_ + 1);
+  for (int row = 0; row < image.height; ++row)
+    for (int x = 0; x < image.width; ++x) {
+      const double sum = halves_[half][at(row) * at(image.width) + at(x)];
+      image.at(x, row) = Rgbf(static_cast<float>(sum * factor(x, row * step_, scale)));
     }
   return image;
 }
+
+template class BasicFilm<double>;
+template class BasicFilm<float>;
 
 }  // namespace h2mc

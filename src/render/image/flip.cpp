@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/image/flip.h"
 
 #include <tbb/parallel_for.h>
@@ -8,6 +9,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "render/core/index.h"
 
 namespace h2mc {
 namespace {
@@ -111,16 +114,16 @@ Plane convolved(const Plane& in, const Kernel& alongX, const Kernel& alongY) {
   Plane rows(w, h), out(w, h);
   std::vector<float> padded(static_cast<std::size_t>(w) + 2 * rx);
   for (int y = 0; y < h; ++y) {
-    const float* row = &in.v[static_cast<std::size_t>(y) * w];
+    const float* row = &in.v[at(y) * w];
     for (int x = -rx; x < w + rx; ++x) padded[x + rx] = row[std::clamp(x, 0, w - 1)];
-    float* to = &rows.v[static_cast<std::size_t>(y) * w];
+    float* to = &rows.v[at(y) * w];
     for (int k = 0; k <= 2 * rx; ++k)
       for (int x = 0; x < w; ++x) to[x] += alongX[k] * padded[x + k];
   }
   for (int y = 0; y < h; ++y) {
-    float* to = &out.v[static_cast<std::size_t>(y) * w];
+    float* to = &out.v[at(y) * w];
     for (int k = -ry; k <= ry; ++k) {
-      const float* from = &rows.v[static_cast<std::size_t>(std::clamp(y + k, 0, h - 1)) * w];
+      const float* from = &rows.v[at(std::clamp(y + k, 0, h - 1)) * w];
       for (int x = 0; x < w; ++x) to[x] += alongY[k + ry] * from[x];
     }
   }

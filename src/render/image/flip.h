@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How different two HDR pictures look: HDR-FLIP [Andersson et al. 2021], which takes the largest of
 // FLIP's differences [Andersson et al. 2020] over a range of exposures.
 #pragma once

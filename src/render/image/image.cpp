@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/image/image.h"
 
 namespace h2mc {

@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: MIT
 // Pictures in memory.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "render/core/index.h"
 #include "render/core/types.h"
 
 namespace h2mc {
@@ -15,8 +17,8 @@ struct Image {
 
   Image() = default;
   Image(int w, int h) : width(w), height(h), pixels(static_cast<std::size_t>(w) * h, Rgbf(0)) {}
-  Rgbf& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * width + x]; }
-  const Rgbf& at(int x, int y) const { return pixels[static_cast<std::size_t>(y) * width + x]; }
+  Rgbf& at(int x, int y) { return pixels[h2mc::at(y) * width + x]; }
+  const Rgbf& at(int x, int y) const { return pixels[h2mc::at(y) * width + x]; }
 };
 
 // Means of blocks of factor x factor pixels; the sizes must be multiples of the factor.

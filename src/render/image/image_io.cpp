@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/image/image_io.h"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -12,7 +13,6 @@
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
-#include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <array>
@@ -24,6 +24,7 @@
 
 #include "render/image/atomic_file.h"
 #include "render/image/color_encoding.h"
+#include "render/image/image_formats.h"
 
 namespace h2mc {
 namespace {
@@ -58,27 +59,69 @@ void checkIsFile(const std::string& path) {
 }
 
 // Where red, green and blue are among the file's channels; alpha and further channels are not read.
-std::array<int, 3> colorChannels(const OIIO::ImageSpec& spec) {
+std::array<int, 3> colorChannels(const FilePicture& picture) {
+  const auto& names = picture.channels;
   const auto named = [&](const char* name) {
-    const auto& names = spec.channelnames;
     const auto it = std::find(names.begin(), names.end(), name);
     return it == names.end() ? -1 : static_cast<int>(it - names.begin());
   };
   const std::array<int, 3> rgb{named("R"), named("G"), named("B")};
   if (rgb[0] >= 0 && rgb[1] >= 0 && rgb[2] >= 0) return rgb;
-  if (spec.nchannels >= 3) return {0, 1, 2};
+  if (names.size() >= 3) return {0, 1, 2};
   return {0, 0, 0};
 }
 
-// The exponent that linearises the file's values: 1 = linear already, -1 = sRGB.
-float gammaOf(const OIIO::ImageSpec& spec) {
-  const std::string space = spec.get_string_attribute("oiio:ColorSpace");
-  if (space.rfind("Gamma", 0) == 0) {
-    const float gamma = spec.get_float_attribute("oiio:Gamma", 0);
-    if (gamma > 0) return gamma;
+// The place of one channel by its name, or its part after the last dot, in either case; "y" is that of
+// grey too.
+int channelNamed(const std::string& path, const FilePicture& picture, const std::string& name) {
+  const auto folded = [](const std::string& text) {
+    std::string result;
+    for (const char c : text.substr(text.rfind('.') == std::string::npos ? 0 : text.rfind('.') + 1))
+      result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return result;
+  };
+  const auto& names = picture.channels;
+  for (std::size_t c = 0; c < names.size(); ++c)
+    if (names[c] == name || folded(names[c]) == folded(name)) return static_cast<int>(c);
+  if (folded(name) == "a" && picture.alpha >= 0) return picture.alpha;
+  if (folded(name) == "y" && names.size() <= 2) return 0;
+  std::string all;
+  for (const std::string& n : names) all += (all.empty() ? "" : ", ") + n;
+  failReading(path, "it has no channel \"" + name + "\"; there are " + all);
+}
+
+// What a PNG's gAMA chunk says, as FilePicture::gamma; 0 where there is none, or an sRGB chunk that goes before
+// it. (OpenImageIO takes most values for sRGB.)
+float gammaOfPng(const std::string& path) {
+  constexpr double kSrgb = 0.45455, kTolerance = 0.005;  // how the sRGB curve is written as a power
+  std::ifstream stream(path, std::ios::binary);
+  std::array<unsigned char, 12> bytes{};
+  const auto read = [&](std::size_t count) {
+    return static_cast<bool>(
+        stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count)));
+  };
+  const auto number = [&] {
+    return std::uint32_t(bytes[0]) << 24 | std::uint32_t(bytes[1]) << 16 |
+           std::uint32_t(bytes[2]) << 8 | std::uint32_t(bytes[3]);
+  };
+  if (!read(8) || std::string(bytes.begin() + 1, bytes.begin() + 4) != "PNG") return 0;
+  float gamma = 0;
+  while (read(8)) {  // length and name of a chunk
+    const std::uint32_t length = number();
+    const std::string name(bytes.begin() + 4, bytes.begin() + 8);
+    if (name == "IDAT" || name == "IEND") break;
+    if (name == "sRGB") return 0;
+    if (name == "gAMA" && length == 4) {
+      if (!read(4)) break;
+      const double encoded = number() / 1e5;  // the exponent that has made the file's values
+      if (encoded > 0)
+        gamma = std::abs(encoded - kSrgb) < kTolerance ? -1 : static_cast<float>(1 / encoded);
+      stream.seekg(4, std::ios::cur);
+    } else {
+      stream.seekg(static_cast<std::streamoff>(length) + 4, std::ios::cur);
+    }
   }
-  if (space == "Linear" || spec.format.is_floating_point()) return 1;
-  return -1;
+  return gamma;
 }
 
 void linearise(Image& image, float gamma) {
@@ -87,6 +130,11 @@ void linearise(Image& image, float gamma) {
     return gamma < 0 ? srgbToLinear(v) : std::pow(std::max(v, 0.f), gamma);
   };
   for (Rgbf& p : image.pixels) p = Rgbf(decode(p.x), decode(p.y), decode(p.z));
+}
+
+void close(std::ofstream& stream) {
+  stream.close();
+  if (!stream) throw std::runtime_error("writing failed, is the disk full?");
 }
 
 void writeExr(const AtomicFile& file, const Image& image, const ImageAttributes& attributes) {
@@ -121,20 +169,14 @@ void writeExr(const AtomicFile& file, const Image& image, const ImageAttributes&
     exr.setFrameBuffer(frame);
     exr.writePixels(image.height);
   }
-  stream.close();
-  if (!stream) throw std::runtime_error("writing failed, is the disk full?");
+  close(stream);
 }
 
-template <class T>
-void writeByOiio(const AtomicFile& file, const Image& image, const std::vector<T>& data,
-                 OIIO::TypeDesc type, const char* colorSpace) {
-  const auto output = OIIO::ImageOutput::create(file.temporaryPath());
-  if (!output) throw std::runtime_error(OIIO::geterror());
-  OIIO::ImageSpec spec(image.width, image.height, 3, type);
-  spec.attribute("oiio:ColorSpace", colorSpace);
-  if (!output->open(file.temporaryPath(), spec) || !output->write_image(type, data.data()) ||
-      !output->close())
-    throw std::runtime_error(output->geterror());
+void writeBytes(const AtomicFile& file, const std::vector<unsigned char>& bytes) {
+  std::ofstream stream(file.temporaryPath(), std::ios::binary);
+  stream.write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+  close(stream);
 }
 
 // Values outside [0, 1] are clipped; what is not a number becomes black.
@@ -161,28 +203,27 @@ std::vector<float> notNegative(const Image& image) {
 
 }  // namespace
 
-Image readImage(const std::string& path, float gamma) {
+Image readImage(const std::string& path, float gamma, const std::string& channel) {
   checkIsFile(path);
-  OIIO::ImageSpec wishes;
-  wishes.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored, not multiplied by alpha
-  const auto input = OIIO::ImageInput::open(path, &wishes);
-  if (!input) failReading(path, OIIO::geterror());
+  FilePicture picture;
+  try {
+    picture = imageFormats().read(path);
+  } catch (const std::exception& e) {
+    failReading(path, e.what());
+  }
 
-  const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1)
-    failReading(path, "it holds no flat picture");
-  const std::size_t channels = spec.nchannels;
-  std::vector<float> data(static_cast<std::size_t>(spec.width) * spec.height * channels);
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, data.data()))
-    failReading(path, input->geterror());
-
-  Image image(spec.width, spec.height);
-  const std::array<int, 3> rgb = colorChannels(spec);
+  Image image(picture.width, picture.height);
+  std::array<int, 3> rgb = colorChannels(picture);
+  if (!channel.empty()) {
+    rgb.fill(channelNamed(path, picture, channel));
+    if (rgb[0] == picture.alpha) gamma = 1;
+  }
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    const float* p = data.data() + i * channels;
+    const float* p = picture.values.data() + i * picture.channels.size();
     image.pixels[i] = Rgbf(p[rgb[0]], p[rgb[1]], p[rgb[2]]);
   }
-  linearise(image, gamma == 0 ? gammaOf(spec) : gamma);
+  if (gamma == 0) gamma = gammaOfPng(path);
+  linearise(image, gamma == 0 ? picture.gamma : gamma);
   return image;
 }
 
@@ -226,10 +267,10 @@ void writeImage(const std::string& path, const Image& image, const ImageAttribut
         writeExr(*file, image, attributes);
         break;
       case Format::kHdr:
-        writeByOiio(*file, image, notNegative(image), OIIO::TypeDesc::FLOAT, "Linear");
+        writeBytes(*file, imageFormats().hdrFile(image.width, image.height, notNegative(image)));
         break;
       case Format::kPng:
-        writeByOiio(*file, image, encodeSrgb(image), OIIO::TypeDesc::UINT8, "sRGB");
+        writeBytes(*file, imageFormats().pngFile(image.width, image.height, encodeSrgb(image)));
         break;
     }
     file->commit();

@@ -1,25 +1,27 @@
-// Image files. The only module that knows OpenImageIO and OpenEXR.
+// SPDX-License-Identifier: MIT
+// Image files.
 #pragma once
 
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <variant>
 
+#include "render/core/user_error.h"
 #include "render/image/image.h"
 
 namespace h2mc {
 
 // A file that cannot be read or written; what() is the whole message: which file, why.
-class ImageError : public std::runtime_error {
+class ImageError : public UserError {
  public:
-  using std::runtime_error::runtime_error;
+  using UserError::UserError;
 };
 
 // Reads any format OpenImageIO knows, as linear RGB (grey is spread over the channels, alpha is
 // dropped). gamma: 0 = the file's own (sRGB for 8-bit formats, linear for float ones), -1 = sRGB,
-// 1 = linear, else value^gamma. Throws ImageError.
-Image readImage(const std::string& path, float gamma = 0);
+// 1 = linear, else value^gamma. channel: one of the file's alone ("r", "g", "b", "a" or "y", or a name
+// that the file gives), spread over all three; alpha is always linear. Throws ImageError.
+Image readImage(const std::string& path, float gamma = 0, const std::string& channel = "");
 
 // Text, numbers and whole numbers that go into an EXR's header.
 using ImageAttributes = std::map<std::string, std::variant<std::string, double, int>>;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/image/metrics.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How far an image is from a reference.
 #pragma once
 

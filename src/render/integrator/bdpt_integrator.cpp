@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bidirectional path tracing with all techniques, light tracing included [Veach 1997, ch. 10].
 #include "render/integrator/bdpt_integrator.h"
 
@@ -11,7 +12,7 @@ class BdptSampler final : public PixelSampler {
  public:
   BdptSampler(int minLength, int maxLength) : minLength_(minLength), sampler_(maxLength) {}
 
-  double sample(const Scene& scene, Random& random, float filmX, float filmY, Film& film,
+  double sample(const Scene& scene, Random& random, float filmX, float filmY, SplatList& film,
                 SampleTally& tally) override {
     double added = 0;
     tally.notFinite += sampler_.sample(scene, random, filmX, filmY, minLength_,

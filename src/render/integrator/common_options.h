@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: MIT
 // Options that every integrator has.
 #pragma once
 
-#include <algorithm>
 #include <limits>
 
 #include "render/core/types.h"
+#include "render/core/unit_interval.h"
 #include "render/scene/option_set.h"
 #include "render/scene/plugin.h"
 
@@ -18,15 +19,8 @@ inline constexpr Parameter kMinDepthParameter = {"minDepth", ParameterType::kInt
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-// The longest path for the option maxDepth. Throws OptionError for numbers that mean nothing.
-inline int maxPathLength(const OptionSet& options) {
-  const int maxDepth = options.integer("maxDepth");
-  if (maxDepth == -1) return kMaxPathLength;
-  requireRange(options, "maxDepth", 1, kNoLimit);
-  return std::min(maxDepth, kMaxPathLength);
-}
-
-// The largest float below 1: film positions stay on the film when they are rounded.
-inline constexpr float kBelowOne = 0x1.fffffep-1f;
+// The longest path for the option maxDepth. Throws OptionError for numbers that mean nothing, and where minDepth leaves
+// no paths.
+int maxPathLength(const OptionSet& options);
 
 }  // namespace h2mc

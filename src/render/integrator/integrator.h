@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What every integrator offers to the commands.
 #pragma once
 
@@ -60,8 +61,9 @@ struct RenderResult {
   nlohmann::json statistics;
 };
 
-// Image and mean luminance from the scene's own units to those of its file.
-void toFileUnits(const Scene& scene, RenderResult& result);
+// Image and mean luminance from the scene's own units to those of its file. Pixels that a filter with negative lobes
+// has left below zero beside something bright become zero: no picture has negative light.
+void finish(const Scene& scene, RenderResult& result);
 
 class Integrator {
  public:
@@ -71,7 +73,7 @@ class Integrator {
 
 struct IntegratorFactory {
   IntegratorPlugin plugin;
-  std::unique_ptr<Integrator> (*create)(const OptionSet&);
+  std::function<std::unique_ptr<Integrator>(const OptionSet&)> create;
 };
 
 // path and bdpt; the Metropolis methods are in mcmc/integrators.h.

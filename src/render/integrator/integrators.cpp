@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include <array>
 
 #include "render/integrator/bdpt_integrator.h"
@@ -11,9 +12,9 @@ std::span<const IntegratorFactory> renderIntegrators() {
   return list;
 }
 
-void toFileUnits(const Scene& scene, RenderResult& result) {
-  if (scene.radianceUnit == 1) return;
-  for (Rgbf& pixel : result.image.pixels) pixel *= static_cast<float>(scene.radianceUnit);
+void finish(const Scene& scene, RenderResult& result) {
+  const auto unit = static_cast<float>(scene.radianceUnit);
+  for (Rgbf& pixel : result.image.pixels) pixel = glm::max(pixel * unit, Rgbf(0));
   result.meanLuminance *= scene.radianceUnit;
   result.meanLuminanceError *= scene.radianceUnit;
 }

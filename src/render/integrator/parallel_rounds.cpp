@@ -1,18 +1,30 @@
+// SPDX-License-Identifier: MIT
 #include "render/integrator/parallel_rounds.h"
 
 #include <sys/resource.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
+
+#ifdef __SANITIZE_THREAD__
+#include <sanitizer/tsan_interface.h>
+#endif
 
 namespace h2mc {
+namespace {
 
-int groupCount(const FilmSettings& film) {
-  constexpr double kMemory = 1 << 30;
-  const double bytes = 24.0 * film.width * film.height;
-  return static_cast<int>(std::clamp(kMemory / bytes, 2.0, 32.0));
+// How much later than asked, as a share of it, a pass may end.
+constexpr double kLate = 0.05;
+
+}  // namespace
+
+int groupCount(long long units) {
+  constexpr long long kUnits = 64;  // samples, or mutations
+  return static_cast<int>(std::clamp<long long>(units / kUnits, 1, kMostGroups));
 }
 
 double wallClock() {
@@ -28,16 +40,41 @@ double cpuClock() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
+namespace {
+
+// ThreadSanitizer can't see how TBB's threads wait for one another, as the library is not compiled with it. So it is
+// told: what a thread did before it passes a gate comes before what another does after it has entered there.
+struct Gate {
+#ifdef __SANITIZE_THREAD__
+  void pass() { __tsan_release(this); }
+  void enter() { __tsan_acquire(this); }
+#else
+  void pass() {}
+  void enter() {}
+#endif
+};
+
+}  // namespace
+
 void parallelFor(int threads, int count, const std::function<void(int)>& work) {
+  // More threads than TBB would start by itself, where somebody asks for them.
+  std::optional<tbb::global_control> more;
+  if (threads > tbb::this_task_arena::max_concurrency())
+    more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  Gate begin, end;
+  begin.pass();
   arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<int>(0, count, 1),
         [&](const tbb::blocked_range<int>& range) {
+          begin.enter();
           for (int i = range.begin(); i < range.end(); ++i) work(i);
+          end.pass();
         },
         tbb::simple_partitioner());
   });
+  end.enter();
 }
 
 RenderClock::RenderClock() : wall_(wallClock()), cpu_(cpuClock()) {}
@@ -62,22 +99,25 @@ RoundsResult runRounds(const RenderRequest& request, const RenderClock& clock, i
   const double start = clock.wallSeconds();
   const bool timed = plan.seconds > 0;
   const auto stopped = [&] { return request.stop && request.stop->load(); };
-  // A time is reached where one more round would end further from it than we are now.
+  const auto inFirstPass = [&] { return result.rounds < plan.roundsAPass; };
   const auto reached = [&](double limit) {
     const double elapsed = clock.wallSeconds();
-    const double aRound = (elapsed - start) / static_cast<double>(result.rounds);
-    return elapsed + aRound / 2 > limit;
+    const double rounds = inFirstPass() ? 1 : static_cast<double>(plan.roundsAPass);
+    const double next = rounds * (elapsed - start) / static_cast<double>(result.rounds);
+    return elapsed + std::max(next / 2, next - kLate * limit) > limit;
   };
+  const auto mayEnd = [&] { return inFirstPass() || result.rounds % plan.roundsAPass == 0; };
   std::size_t mark = 0;
   while (plan.rounds == 0 || result.rounds < plan.rounds) {
-    if (stopped()) {
+    if (mayEnd() && stopped()) {
       result.interrupted = true;
       break;
     }
-    if (timed && result.rounds > 0 && reached(plan.seconds)) break;
+    if (timed && result.rounds > 0 && mayEnd() && reached(plan.seconds)) break;
     if (result.rounds > 0 && plan.betweenRounds) plan.betweenRounds();
     parallelFor(request.threads, groups, [&](int group) { work(group, result.rounds); });
     ++result.rounds;
+    if (plan.endOfRound) plan.endOfRound();
     if (request.progress) {
       const double now = clock.wallSeconds();
       const double done = static_cast<double>(result.rounds);
@@ -86,6 +126,7 @@ RoundsResult runRounds(const RenderRequest& request, const RenderClock& clock, i
       request.progress(
           {std::min(fraction, 1.0), now, done * plan.unitsPerRound / (now - start), plan.unit});
     }
+    if (!mayEnd()) continue;
     const auto passed = [&] {
       return timed ? reached(plan.marks[mark])
                    : static_cast<double>(result.rounds) >= plan.marks[mark];

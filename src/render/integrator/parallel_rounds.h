@@ -1,16 +1,18 @@
+// SPDX-License-Identifier: MIT
 // Work in groups and rounds: the same image whatever the number of threads.
 #pragma once
 
 #include <functional>
 
-#include "render/camera/film_settings.h"
 #include "render/integrator/integrator.h"
 
 namespace h2mc {
 
-// How many groups work is split into. Each has a film of its own, merged in their order at the end,
-// so the number depends on the film's size (memory) and on nothing else.
-int groupCount(const FilmSettings& film);
+// How many groups so many units of work are split into, each at least some tenths of a millisecond long: the
+// number of threads that can be busy. What groups add up is added in their order, so the number must not
+// depend on that of the threads.
+int groupCount(long long units);
+inline constexpr int kMostGroups = 256;
 
 // The time that a render takes, less what does not belong to it.
 class RenderClock {
@@ -35,12 +37,17 @@ struct RoundsResult {
 struct RoundsPlan {
   long long rounds = 0;  // 0: until the time is up
   double seconds = 0;    // on the clock; 0: until the rounds are done
+  // So many rounds make one pass. The first may be cut short by the time or the stop flag, later ones are
+  // completed, and marks lie between them.
+  long long roundsAPass = 1;
   double unitsPerRound = 1;
   std::string unit;
   // Ascending, in rounds or, where the plan is a time, in seconds; atMark is called once for each that
   // is reached, in order. It may exclude its time from the clock.
   std::vector<double> marks;
   std::function<void(std::size_t mark, const RoundsResult&)> atMark;
+  // Called at the end of each round, when all groups are done; may be empty.
+  std::function<void()> endOfRound;
   // Called between one round and the next; may be empty.
   std::function<void()> betweenRounds;
 };
@@ -48,7 +55,8 @@ struct RoundsPlan {
 // Calls work(group, round) for all groups of a round in parallel, round after round, until the plan
 // is fulfilled or the request's stop flag is set. A started round is always completed: all groups
 // have done the same number of rounds when it returns.
-// The clock may have run before: its time counts.
+// The clock may have run before: its time counts. A time is reached where one more round, or pass, would end
+// further from it than we are now, or end later than it by more than a twentieth.
 RoundsResult runRounds(const RenderRequest& request, const RenderClock& clock, int groups,
                        const RoundsPlan& plan,
                        const std::function<void(int group, long long round)>& work);

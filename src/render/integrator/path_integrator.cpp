@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Path tracing with next-event estimation, weighted by the power heuristic [Veach 1997, ch. 9].
 #include "render/integrator/path_integrator.h"
 
@@ -8,15 +9,11 @@
 namespace h2mc {
 namespace {
 
-struct PathOptions {
-  int minDepth, maxDepth, rrDepth;
-};
-
 class PathSampler final : public PixelSampler {
  public:
   explicit PathSampler(const PathOptions& options) : options_(options) {}
 
-  double sample(const Scene& scene, Random& random, float filmX, float filmY, Film& film,
+  double sample(const Scene& scene, Random& random, float filmX, float filmY, SplatList& film,
                 SampleTally& tally) override {
     const float time = scene.moving ? random.uniform() : 0;
     const Rgbf radiance =
@@ -121,6 +118,10 @@ constexpr Parameter kParameters[] = {
 };
 
 }  // namespace
+
+std::unique_ptr<PixelSampler> makePathSampler(const PathOptions& options) {
+  return std::make_unique<PathSampler>(options);
+}
 
 IntegratorFactory pathIntegrator() {
   return {{"path", "path tracing with next-event estimation and multiple importance sampling",

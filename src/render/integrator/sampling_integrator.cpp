@@ -1,12 +1,18 @@
+// SPDX-License-Identifier: MIT
 #include "render/integrator/sampling_integrator.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "render/core/index.h"
+#include "render/core/unit_interval.h"
 #include "render/integrator/common_options.h"
-#include "render/integrator/parallel_rounds.h"
 
 namespace h2mc {
 namespace {
+
+// Most samples of a round: a tenth of a second's work of one core, and some MB of splats.
+constexpr long long kMostARound = 1 << 18;
 
 // A uniform position in pixel number `pixel` of a row or column of `size`, in [0, 1).
 float positionIn(int pixel, int size, Random& random) {
@@ -14,91 +20,154 @@ float positionIn(int pixel, int size, Random& random) {
                   (static_cast<float>(pixel) + random.uniform()) / static_cast<float>(size));
 }
 
-struct Group {
-  Film film;
-  std::unique_ptr<PixelSampler> sampler;
-  SampleTally tally;
+int sideFor(const FilmSettings& film) {
+  int side = 1;
+  while (static_cast<long long>(film.width) * film.height / (side * side) > kMostARound) side *= 2;
+  return side;
+}
+
+struct Offset {
+  int x, y;
 };
 
-// What the groups have so far; leaves them as they are.
-RenderResult resultOf(const Scene& scene, const std::vector<Group>& work, const RenderClock& clock,
+// Where in squares of side x side pixels, a power of 2, the index-th pixel is, so that those up to any index are
+// spread evenly (the order of ordered dithering), all shifted by the seed.
+Offset inSquare(int index, int side, std::uint64_t seed) {
+  const std::uint64_t shift = mixBits(seed);
+  auto x = static_cast<int>(shift % at(side)), y = static_cast<int>((shift >> 32) % at(side));
+  for (int step = side / 2; step > 0; step /= 2, index /= 4) {
+    const int quarter = index & 3;  // (0, 0), (1, 1), (1, 0), (0, 1)
+    x += step * ((quarter == 1) | (quarter == 2));
+    y += step * ((quarter == 1) | (quarter == 3));
+  }
+  return {x % side, y % side};
+}
+
+RenderResult resultOf(const Scene& scene, const SampledFilm& sampled, const RenderClock& clock,
                       const RoundsResult& rounds) {
   RenderResult result;
   result.wallSeconds = clock.wallSeconds();
   result.cpuSeconds = clock.cpuSeconds();
   result.interrupted = rounds.interrupted;
-  SampleTally total;
-  Film film(scene.film);
-  for (const Group& group : work) {
-    total.luminance += group.tally.luminance;
-    total.squares += group.tally.squares;
-    total.samples += group.tally.samples;
-    total.notFinite += group.tally.notFinite;
-    film.merge(group.film);
-  }
-  const double n = static_cast<double>(total.samples);
-  result.image = film.develop(n > 0 ? 1 / n : 0);
+  const SampleTally total = sampled.tally(0);
+  result.image =
+      sampled.film().develop(total.samples > 0 ? 1 / static_cast<double>(total.samples) : 0);
   result.samples = total.samples;
   result.sampleUnit = "samples";
-  if (n > 0) {
-    result.meanLuminance = total.luminance / n;
-    result.meanLuminanceError = std::sqrt(
-        std::max(0.0, total.squares / n - result.meanLuminance * result.meanLuminance) / n);
-  }
-  toFileUnits(scene, result);
-  result.statistics = {{"samples", total.samples},
-                       {"samples per pixel", rounds.rounds},
-                       {"samples per second", n / std::max(result.wallSeconds, 1e-9)},
-                       {"not finite", total.notFinite},
-                       {"mean luminance", result.meanLuminance},
-                       {"mean luminance standard error", result.meanLuminanceError}};
+  result.meanLuminance = total.meanLuminance();
+  result.meanLuminanceError = total.meanLuminanceError();
+  finish(scene, result);
+  result.statistics = sampleStatistics(scene, total, result.wallSeconds);
   return result;
 }
 
 }  // namespace
 
-RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
-                           int defaultSamplesPerPixel,
-                           const std::function<std::unique_ptr<PixelSampler>()>& makeSampler) {
-  RenderClock clock;
-  const int width = scene.film.width, height = scene.film.height;
-  const int groups = groupCount(scene.film);
-  std::vector<Group> work;
-  work.reserve(static_cast<std::size_t>(groups));
-  for (int i = 0; i < groups; ++i) work.push_back({Film(scene.film), makeSampler(), {}});
+nlohmann::json sampleStatistics(const Scene& scene, const SampleTally& tally, double seconds) {
+  const long long pixels = static_cast<long long>(scene.film.width) * scene.film.height;
+  const double samples = static_cast<double>(tally.samples);
+  nlohmann::json statistics = {
+      {"samples", tally.samples},
+      {"samples per second", samples / std::max(seconds, 1e-9)},
+      {"not finite", tally.notFinite},
+      {"mean luminance", tally.meanLuminance() * scene.radianceUnit},
+      {"mean luminance standard error", tally.meanLuminanceError() * scene.radianceUnit}};
+  if (tally.samples % pixels == 0)
+    statistics["samples per pixel"] = tally.samples / pixels;
+  else
+    statistics["samples per pixel"] = samples / static_cast<double>(pixels);
+  return statistics;
+}
 
+void SampleTally::add(const SampleTally& other) {
+  luminance += other.luminance;
+  squares += other.squares;
+  samples += other.samples;
+  notFinite += other.notFinite;
+}
+
+double SampleTally::meanLuminance() const {
+  return samples > 0 ? luminance / static_cast<double>(samples) : 0;
+}
+
+double SampleTally::meanLuminanceError() const {
+  if (samples == 0) return 0;
+  const double n = static_cast<double>(samples), mean = meanLuminance();
+  return std::sqrt(std::max(0.0, squares / n - mean * mean) / n);
+}
+
+SampledFilm::SampledFilm(const Scene& scene, const MakeSampler& makeSampler, int step)
+    : scene_(scene), side_(sideFor(scene.film)), film_(scene.film, step) {
+  const long long pixels = static_cast<long long>(scene.film.width) * scene.film.height;
+  groups_.resize(at(groupCount(pixels / roundsAPass())));
+  for (Group& group : groups_) group.sampler = makeSampler();
+}
+
+SampleTally SampledFilm::tally(int half) const {
+  SampleTally total;
+  for (const Group& group : groups_) total.add(group.tally[half]);
+  return total;
+}
+
+// A group's share of a round: consecutive ones of the round's pixels.
+void SampledFilm::sample(int index, long long round, std::uint64_t seed, int half) {
+  Group& group = groups_[at(index)];
+  SampleTally& tally = group.tally[half];
+  const int width = scene_.film.width, height = scene_.film.height;
+  const auto [offsetX, offsetY] = inSquare(static_cast<int>(round % roundsAPass()), side_, seed);
+  const auto pass = static_cast<std::uint64_t>(round / roundsAPass());
+  const long long columns = (width - offsetX + side_ - 1) / side_;
+  const long long pixels = columns * ((height - offsetY + side_ - 1) / side_);
+  const auto count = static_cast<long long>(groups_.size());
+  for (long long i = index * pixels / count; i < (index + 1) * pixels / count; ++i) {
+    const int x = offsetX + side_ * static_cast<int>(i % columns);
+    const int y = offsetY + side_ * static_cast<int>(i / columns);
+    const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width) +
+                       static_cast<std::uint64_t>(x);
+    Random random(seed, pixel, pass);
+    const float filmX = positionIn(x, width, random), filmY = positionIn(y, height, random);
+    const double added = group.sampler->sample(scene_, random, filmX, filmY, group.splats, tally);
+    tally.luminance += added;
+    tally.squares += added * added;
+    ++tally.samples;
+  }
+}
+
+RoundsResult SampledFilm::add(const RenderRequest& request, const RenderClock& clock,
+                              RoundsPlan plan, int half) {
+  const int bands = bandCount(request.threads, film_.height());
+  plan.roundsAPass = roundsAPass();
+  std::vector<FilmPart> parts;
+  for (Group& group : groups_) parts.push_back({&group.splats, half});
+  plan.endOfRound = [&] { addInOrder<double>(parts, request.threads, film_); };
+  return runRounds(request, clock, static_cast<int>(groups_.size()), plan,
+                   [&](int group, long long round) {
+                     sample(group, round, request.seed, half);
+                     groups_[at(group)].splats.sort(film_, bands);
+                   });
+}
+
+RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
+                           int defaultSamplesPerPixel, const MakeSampler& makeSampler) {
+  RenderClock clock;
+  SampledFilm sampled(scene, makeSampler);
   RoundsPlan plan;
   plan.seconds = request.budget.seconds;
   // A sample is what a mutation is compared with.
-  plan.rounds = request.budget.samplesPerPixel + request.budget.mutationsPerPixel;
-  if (plan.seconds <= 0 && plan.rounds == 0) plan.rounds = defaultSamplesPerPixel;
-  plan.unitsPerRound = static_cast<double>(width) * height;
+  long long passes = request.budget.samplesPerPixel + request.budget.mutationsPerPixel;
+  if (plan.seconds <= 0 && passes == 0) passes = defaultSamplesPerPixel;
+  plan.rounds = passes * sampled.roundsAPass();
+  plan.unitsPerRound = static_cast<double>(scene.film.width) * scene.film.height /
+                       static_cast<double>(sampled.roundsAPass());
   plan.unit = "samples";
   plan.marks = request.marks;
+  if (plan.seconds <= 0)
+    for (double& mark : plan.marks) mark *= static_cast<double>(sampled.roundsAPass());
   plan.atMark = [&](std::size_t mark, const RoundsResult& rounds) {
-    clock.exclude([&] { request.atMark(mark, resultOf(scene, work, clock, rounds)); });
+    clock.exclude([&] { request.atMark(mark, resultOf(scene, sampled, clock, rounds)); });
   };
-
-  const RoundsResult rounds =
-      runRounds(request, clock, groups, plan, [&](int index, long long round) {
-        Group& group = work[static_cast<std::size_t>(index)];
-        SampleTally& tally = group.tally;
-        for (int y = index; y < height; y += groups) {
-          for (int x = 0; x < width; ++x) {
-            const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width) +
-                               static_cast<std::uint64_t>(x);
-            Random random(request.seed, pixel, static_cast<std::uint64_t>(round));
-            const float filmX = positionIn(x, width, random), filmY = positionIn(y, height, random);
-            const double added =
-                group.sampler->sample(scene, random, filmX, filmY, group.film, tally);
-            tally.luminance += added;
-            tally.squares += added * added;
-            ++tally.samples;
-          }
-        }
-      });
-
-  return resultOf(scene, work, clock, rounds);
+  const RoundsResult rounds = sampled.add(request, clock, plan);
+  return resultOf(scene, sampled, clock, rounds);
 }
 
 }  // namespace h2mc

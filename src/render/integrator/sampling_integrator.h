@@ -1,9 +1,15 @@
-// What path and bdpt share: a number of independent samples for each pixel, added up on films.
+// SPDX-License-Identifier: MIT
+// What path and bdpt share: a number of independent samples for each pixel, added up on a film.
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <vector>
+
 #include "render/core/random.h"
-#include "render/image/film.h"
 #include "render/integrator/integrator.h"
+#include "render/integrator/parallel_rounds.h"
+#include "render/integrator/splat_list.h"
 #include "render/scene/scene.h"
 
 namespace h2mc {
@@ -13,21 +19,60 @@ struct SampleTally {
   double luminance = 0, squares = 0;  // of whole samples, splats to other pixels included
   long long samples = 0;
   long long notFinite = 0;  // contributions left out
+
+  void add(const SampleTally& other);
+  double meanLuminance() const;
+  double meanLuminanceError() const;  // its standard error
 };
 
 // Draws the samples of one group: owns what must not be shared.
 class PixelSampler {
  public:
   virtual ~PixelSampler() = default;
-  // Adds one sample to the film, whose camera ray passes through (filmX, filmY).
+  // Adds one sample to the list, whose camera ray passes through (filmX, filmY).
   // Returns the luminance of all that it has added.
-  virtual double sample(const Scene& scene, Random& random, float filmX, float filmY, Film& film,
-                        SampleTally& tally) = 0;
+  virtual double sample(const Scene& scene, Random& random, float filmX, float filmY,
+                        SplatList& film, SampleTally& tally) = 0;
 };
+using MakeSampler = std::function<std::unique_ptr<PixelSampler>()>;
+
+// A film and the samples on it: in each pass one for every pixel, or in a first pass that was cut short one
+// for some of them, spread evenly, which are those that the seed picks: every pixel is as likely to have
+// one. Memory: a film, and 24 bytes for each splat of the 260,000 samples that a round has at most.
+class SampledFilm {
+ public:
+  // Keeps a reference to the scene. `step`: as BasicFilm's.
+  SampledFilm(const Scene& scene, const MakeSampler& makeSampler, int step = 0);
+
+  // Rounds in a pass.
+  long long roundsAPass() const { return static_cast<long long>(side_) * side_; }
+  // Adds samples by a plan in rounds, to one half of the film. Sample i of a pixel draws from
+  // Random(seed, pixel, i): a further call needs another seed.
+  RoundsResult add(const RenderRequest& request, const RenderClock& clock, RoundsPlan plan,
+                   int half = 0);
+
+  const Film& film() const { return film_; }
+  SampleTally tally(int half) const;
+
+ private:
+  struct Group {
+    std::unique_ptr<PixelSampler> sampler;
+    SplatList splats;
+    SampleTally tally[2];
+  };
+  void sample(int group, long long round, std::uint64_t seed, int half);
+
+  const Scene& scene_;
+  int side_;  // a round has every side-th pixel of every side-th row
+  Film film_;
+  std::vector<Group> groups_;
+};
+
+// Samples, in all, a pixel and a second; what was not finite; mean luminance with its error, in the file's units.
+nlohmann::json sampleStatistics(const Scene& scene, const SampleTally& tally, double seconds);
 
 // Renders samplesPerPixel passes (or by time) with a sampler for each group.
 RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
-                           int defaultSamplesPerPixel,
-                           const std::function<std::unique_ptr<PixelSampler>()>& makeSampler);
+                           int defaultSamplesPerPixel, const MakeSampler& makeSampler);
 
 }  // namespace h2mc

@@ -1,12 +1,14 @@
+// SPDX-License-Identifier: MIT
 #include "render/light/area_light.h"
 
 #include <cmath>
 #include <stdexcept>
 
+#include "render/core/index.h"
 namespace h2mc {
 
 void AreaLight::prepare(std::span<const Shape> shapes) {
-  const Shape& s = shapes[static_cast<std::size_t>(shape)];
+  const Shape& s = shapes[at(shape)];
   area_ = static_cast<float>(totalArea(s));
   if (!(area_ >= std::numeric_limits<float>::min())) area_ = std::numeric_limits<float>::min();
   wraps_ = wrapsAround(s);
@@ -37,8 +39,8 @@ bool AreaLight::invertDirect(const LightContext& context, PrimitiveId primitive,
                              const Vec3f& reference, const Vec3f& direction, float distance,
                              Vec2f& u, float& choice, const float* time) const {
   if (primitive.shape != static_cast<std::uint32_t>(shape)) return false;
-  choice =
-      triangles_.size() > 0 ? triangles_.invert(static_cast<int>(primitive.primitive), 0.5f) : 0.5f;
+  if (triangles_.size() > 0)
+    choice = triangles_.invert(static_cast<int>(primitive.primitive), choice);
   return choice >= 0 &&
          invertPrimitive(context.shapes, primitive, reference + direction * distance, u, time);
 }

@@ -1,7 +1,9 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "render/core/distribution.h"
 #include "render/core/hemisphere.h"
+#include "render/core/index.h"
 #include "render/geometry/surface.h"
 #include "render/light/light_sampling.h"
 #include "render/scene/plugin.h"
@@ -64,7 +66,7 @@ template <class T>
 T AreaLight::densityFactor(const LightContext& context, PrimitiveId primitive,
                            const T& time) const {
   using S = Scalar<T>;
-  const Shape& s = context.shapes[static_cast<std::size_t>(shape)];
+  const Shape& s = context.shapes[at(shape)];
   const int index = static_cast<int>(primitive.primitive);
   const S chosen = triangles_.size() > 0 ? S(triangles_.probability(index)) : S(1);
   return T(chosen * S(area_)) / primitiveAreaAt<T>(s, primitive.primitive, &time);

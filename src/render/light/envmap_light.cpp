@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/light/envmap_light.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lights: where light comes from. Densities do not include the probability of choosing the light.
 #pragma once
 
@@ -43,7 +44,7 @@ namespace h2mc {
 //   PrimitiveId choosePrimitive(const LightContext&, float choice);
 //
 //   // The inverses, for mutations that move vertices: coordinates that give back the sampled point
-//   // or ray; false where the light cannot have made it. `choice` lies in the primitive's interval.
+//   // or ray; false where the light cannot have made it. Area lights turn `choice`, a remainder, into the primitive's.
 //   bool invertDirect(const LightContext&, PrimitiveId, const Vec3f& reference,
 //                     const Vec3f& direction, float distance, Vec2f& u, float& choice);
 //   bool invertEmission(const LightContext&, PrimitiveId, const Vec3f& origin,

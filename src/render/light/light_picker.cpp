@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/light/light_picker.h"
 
 namespace h2mc {

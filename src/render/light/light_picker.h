@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: MIT
 // Which light a path starts from.
 #pragma once
 
 #include <vector>
 
 #include "render/core/distribution.h"
+#include "render/core/index.h"
 
 namespace h2mc {
 
@@ -19,7 +21,7 @@ class LightPicker {
     float remainder;  // the coordinate within the light's interval, in [0, 1): uniform again
   };
   Choice choose(float coordinate) const;
-  float probability(int light) const { return probabilities_[static_cast<std::size_t>(light)]; }
+  float probability(int light) const { return probabilities_[at(light)]; }
   // A coordinate that chooses `light` with this remainder, as near as floats allow; -1 where the
   // light is so weak that no float in [0, 1) chooses it.
   float invert(int light, float remainder) const;

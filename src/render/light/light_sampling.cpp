@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/light/light_sampling.h"
 
 #include <algorithm>
@@ -5,16 +6,14 @@
 
 namespace h2mc::detail {
 
-float unitCoordinate(double x) { return std::clamp(static_cast<float>(x), 0.0f, 0x1.fffffep-1f); }
-
 Vec2f invertUniformDisk(float x, float y) {
-  return {unitCoordinate(static_cast<double>(x) * x + static_cast<double>(y) * y),
-          unitCoordinate(turns(static_cast<double>(y), static_cast<double>(x)))};
+  return {toUnitInterval(static_cast<double>(x) * x + static_cast<double>(y) * y),
+          toUnitInterval(turns(static_cast<double>(y), static_cast<double>(x)))};
 }
 
 Vec2f invertUniformSphere(const Vec3f& direction) {
   const glm::dvec3 d = glm::normalize(glm::dvec3(direction));
-  return {unitCoordinate(turns(d.y, d.x)), unitCoordinate((1 - d.z) / 2)};
+  return {toUnitInterval(turns(d.y, d.x)), toUnitInterval((1 - d.z) / 2)};
 }
 
 bool invertDiskTowards(const SceneBounds& bounds, const Vec3f& toLight, const Vec3f& point,

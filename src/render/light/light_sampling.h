@@ -1,7 +1,9 @@
+// SPDX-License-Identifier: MIT
 // Directions and points that several lights sample.
 #pragma once
 
 #include "render/core/safe_math.h"
+#include "render/core/unit_interval.h"
 #include "render/light/light_types.h"
 
 namespace h2mc::detail {
@@ -71,9 +73,6 @@ template <class T>
 Rgb<T> passiveColor(const Rgbf& c) {
   return lift<T>(plain<T>(c));
 }
-
-// The coordinate in [0, 1) nearest to x.
-float unitCoordinate(double x);
 
 // Whether `p` is the point `at` up to rounding, `distance` away from where it was reckoned.
 inline bool isNear(const Vec3f& p, const Vec3f& at, float distance) {

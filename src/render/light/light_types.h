@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What lights return, and what they know of the scene.
 //
 // The densities are the ones that the recursive MIS weights of bidirectional path tracing need

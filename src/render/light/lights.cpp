@@ -1,9 +1,13 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "render/image/image_io.h"
 #include "render/light/light.h"
 #include "render/scene/properties.h"
+#include "render/scene/texel_check.h"
 
 namespace h2mc {
 namespace {
@@ -30,7 +34,8 @@ constexpr std::array kSpotParameters{
     Parameter{"cutoffAngle", ParameterType::kNumber, "20", "degrees from the axis to the dark"},
     Parameter{"beamWidth", ParameterType::kNumber, "",
               "degrees from the axis to where the intensity starts to fall; 3/4 of cutoffAngle"},
-    Parameter{"texture", ParameterType::kTexture, "", "not supported"},
+    Parameter{"texture", ParameterType::kTexture, "",
+              "a factor, projected: the whole of it at the cutoff; for angles below 90 degrees"},
     kSamplingWeight};
 constexpr std::array kDirectionalParameters{
     kToWorld,
@@ -49,6 +54,8 @@ constexpr std::array kEnvmapParameters{
               "0: the file's own encoding, -1: sRGB, 1: linear, else value^gamma"},
     Parameter{"cache", ParameterType::kBoolean, "false", "other renderers' texture cache", "", "",
               true},
+    Parameter{"misCompensation", ParameterType::kBoolean, "false", "how other renderers sample it",
+              "", "", true},
     kSamplingWeight};
 
 Vec3f transformVector(const Mat4& m, const Vec3f& v) { return glm::mat3(m) * v; }
@@ -79,8 +86,6 @@ Light createPoint(const Properties& properties) {
 }
 
 Light createSpot(const Properties& properties) {
-  if (properties.given("texture"))
-    properties.fail("texture", "spot lights with a texture are not supported");
   const Mat4 toWorld = properties.transform("toWorld");
   const float cutoff = properties.number("cutoffAngle");
   if (!(cutoff > 0 && cutoff <= 180))
@@ -89,9 +94,17 @@ Light createSpot(const Properties& properties) {
       properties.given("beamWidth") ? properties.number("beamWidth") : cutoff * 0.75f;
   if (!(beam >= 0 && beam <= cutoff))
     properties.fail("beamWidth", "expected an angle from 0 to cutoffAngle");
-  return SpotLight(Vec3f(toWorld[3]),
-                   unit(properties, "toWorld", transformVector(toWorld, Vec3f(0, 0, 1))),
-                   properties.color("intensity"), cutoff, beam);
+  const auto across = [&](const Vec3f& axis) {
+    return unit(properties, "toWorld", transformVector(toWorld, axis));
+  };
+  SpotLight light(Vec3f(toWorld[3]), across(Vec3f(0, 0, 1)), properties.color("intensity"), cutoff,
+                  beam);
+  if (properties.given("texture")) {
+    if (!(cutoff < 90))
+      properties.fail("texture", "a projected texture needs a cutoffAngle below 90");
+    light.project(properties.texture("texture"), across(Vec3f(1, 0, 0)), across(Vec3f(0, 1, 0)));
+  }
+  return light;
 }
 
 Light createDirectional(const Properties& properties) {
@@ -110,26 +123,85 @@ Light createConstant(const Properties& properties) {
   return ConstantLight{properties.color("radiance")};
 }
 
-// The rotation (and reflection) of a transform that may scale uniformly.
-glm::mat3 rotationOf(const Properties& properties, const Mat4& transform) {
-  glm::dmat3 m(transform);
+// What a transform does to directions: M = rotation * stretch, with a rotation (perhaps a reflection too)
+// and a symmetric stretch, whose scale as a whole does not matter.
+struct EnvironmentTransform {
+  glm::dmat3 rotation{1}, stretch{1};
+  bool stretches = false;
+};
+
+EnvironmentTransform environmentTransform(const Properties& properties) {
+  constexpr double kNoise = 1e-3;  // of matrices written with few digits
+  glm::dmat3 m(properties.transform("toWorld"));
   const double scale = std::cbrt(std::abs(glm::determinant(m)));
   if (!(scale > 0)) properties.fail("toWorld", "expected a transform that can be inverted");
   m = m * (1 / scale);
-  const glm::dmat3 product = glm::transpose(m) * m;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      if (!(std::abs(product[i][j] - (i == j ? 1 : 0)) < 1e-3))
-        properties.fail("toWorld", "an environment map can be rotated and mirrored, not sheared");
-  // One step of Newton's iteration for the nearest orthogonal matrix.
-  return glm::mat3((m + glm::transpose(glm::inverse(m))) * 0.5);
+  EnvironmentTransform result;
+  // Newton's iteration for the nearest orthogonal matrix [Higham 1986, "Computing the Polar
+  // Decomposition"].
+  result.rotation = m;
+  for (int i = 0; i < 100; ++i) {
+    const glm::dmat3 next = (result.rotation + glm::transpose(glm::inverse(result.rotation))) * 0.5;
+    double change = 0;
+    for (int k = 0; k < 3; ++k)
+      change = std::max(change, glm::length(next[k] - result.rotation[k]));
+    result.rotation = next;
+    if (change < 1e-14) break;
+  }
+  result.stretch = glm::transpose(result.rotation) * m;
+  double deviation = 0;
+  for (int k = 0; k < 3; ++k) {
+    glm::dvec3 identity(0);
+    identity[k] = 1;
+    deviation = std::max(deviation, glm::length(result.stretch[k] - identity));
+  }
+  result.stretches = deviation > kNoise;
+  if (result.stretches)
+    properties.warn("toWorld",
+                    "the transform of the environment map stretches directions, by up to " +
+                        std::to_string(static_cast<int>(std::ceil(100 * deviation))) + " %");
+  return result;
+}
+
+// The picture as a rotation alone has to see it: at direction d it has what the original has at S^-1 d.
+Image stretched(const Image& image, const glm::dmat3& stretch) {
+  constexpr int kSub = 2;  // samples along a pixel's edge
+  const glm::dmat3 inverse = glm::inverse(stretch);
+  Image result(image.width, image.height);
+  const auto lookUp = [&](double x, double y) {
+    const double left = std::floor(x), top = std::floor(y), a = x - left, b = y - top;
+    const auto texel = [&](double i, double j) {
+      const int column = static_cast<int>(i) % image.width;
+      return glm::dvec3(image.at(column < 0 ? column + image.width : column,
+                                 std::clamp(static_cast<int>(j), 0, image.height - 1)));
+    };
+    return (texel(left, top) * (1 - a) + texel(left + 1, top) * a) * (1 - b) +
+           (texel(left, top + 1) * (1 - a) + texel(left + 1, top + 1) * a) * b;
+  };
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      glm::dvec3 sum(0);
+      for (int k = 0; k < kSub * kSub; ++k) {
+        const int column = k % kSub, row = k / kSub;
+        const double u = (x + (column + 0.5) / kSub) / image.width;
+        const double v = (y + (row + 0.5) / kSub) / image.height;
+        const double phi = 2 * std::numbers::pi * u, theta = std::numbers::pi * v;
+        const glm::dvec3 d = inverse * glm::dvec3(std::sin(phi) * std::sin(theta), std::cos(theta),
+                                                  -std::cos(phi) * std::sin(theta));
+        const double turn = std::atan2(d.x, -d.z) / (2 * std::numbers::pi);
+        const double fall = std::atan2(std::hypot(d.x, d.z), d.y) / std::numbers::pi;
+        sum += lookUp((turn < 0 ? turn + 1 : turn) * image.width - 0.5, fall * image.height - 0.5);
+      }
+      result.at(x, y) = Rgbf(sum / static_cast<double>(kSub * kSub));
+    }
+  return result;
 }
 
 Light createEnvmap(const Properties& properties) {
   const std::string file = properties.file("filename");
   const float scale = properties.number("scale");
   if (scale < 0) properties.fail("scale", "expected a number that is not negative");
-  const glm::mat3 toWorld = rotationOf(properties, properties.transform("toWorld"));
+  const EnvironmentTransform transform = environmentTransform(properties);
   Image image;
   try {
     image = readImage(file, properties.number("gamma"));
@@ -137,12 +209,12 @@ Light createEnvmap(const Properties& properties) {
     properties.fail("filename", error.what());
   }
   if (image.pixels.empty()) properties.fail("filename", "the picture is empty");
-  for (Rgbf& pixel : image.pixels) {
+  if (auto mended = mendedTexels(properties, image)) image = *std::move(mended);
+  for (const Rgbf& pixel : image.pixels)
     if (!ad::isFinite(pixel * scale))
-      properties.fail("filename", "the picture has pixels that are not finite");
-    pixel = glm::max(pixel, Rgbf(0));
-  }
-  return EnvmapLight(image, scale, toWorld);
+      properties.fail("scale", "times the picture's values it is beyond float");
+  if (transform.stretches) image = stretched(image, transform.stretch);
+  return EnvmapLight(image, scale, glm::mat3(transform.rotation));
 }
 
 constexpr std::array kPlugins{

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/light/spot_light.h"
 
 #include <cmath>
@@ -18,11 +19,19 @@ SpotLight::SpotLight(const Vec3f& position, const Vec3f& axis, const Rgbf& inten
   conePdf_ = 1 / (4 * kPi * half * half);
 }
 
+void SpotLight::project(TexturePtr texture, const Vec3f& x, const Vec3f& y) {
+  texture_ = std::move(texture);
+  x_ = x;
+  y_ = y;
+  tanCutoff_ = std::tan(cutoff_);
+}
+
 float SpotLight::power(const SceneBounds&) const {
   // The integral of the falloff over the cone: 2 pi (1 - (sin c - sin b) / (c - b)).
   const double c = static_cast<double>(cutoff_), b = static_cast<double>(beam_);
   const double slope = c - b > 1e-4 ? (std::sin(c) - std::sin(b)) / (c - b) : std::cos((c + b) / 2);
-  return static_cast<float>(2 * std::numbers::pi * (1 - slope)) * luminance(intensity_);
+  return static_cast<float>(2 * std::numbers::pi * (1 - slope)) *
+         luminance(texture_ ? intensity_ * average(*texture_) : intensity_);
 }
 
 bool SpotLight::invertDirect(const LightContext&, PrimitiveId, const Vec3f& reference,
@@ -42,7 +51,7 @@ bool SpotLight::invertEmission(const LightContext&, PrimitiveId, const Vec3f& or
   // 1 - cos from the sine where the angle is small.
   const float sine2 = local.x * local.x + local.y * local.y;
   const float height = local.z > 0 ? sine2 / (1 + local.z) : 1 - local.z;
-  v = {detail::unitCoordinate(static_cast<double>(height / (1 - cosCutoff_))),
+  v = {toUnitInterval(static_cast<double>(height / (1 - cosCutoff_))),
        detail::invertUniformDisk(local.x, local.y).y};
   return true;
 }

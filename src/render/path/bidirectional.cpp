@@ -1,12 +1,11 @@
+// SPDX-License-Identifier: MIT
 #include "render/path/bidirectional.h"
 
 #include <algorithm>
 
-namespace h2mc {
+#include "render/core/index.h"
 
-namespace {
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-}  // namespace
+namespace h2mc {
 
 BidirectionalSampler::BidirectionalSampler(int maxLength)
     : maxLength_(maxLength),
@@ -15,6 +14,15 @@ BidirectionalSampler::BidirectionalSampler(int maxLength)
       direct_(at(maxLength) + 1) {
   cameraPath_.technique = {0, maxLength + 1};
   lightPath_.technique = {maxLength, 1};
+}
+
+Step BidirectionalSampler::keepCamera(const Path& given, int i) {
+  if (given.escaped && i == given.technique.t - 1) {
+    cameraPath_.lastRay = given.lastRay;
+    return Step::kEscaped;
+  }
+  cameraPath_.camera[at(i)] = given.camera[at(i)];
+  return Step::kArrived;
 }
 
 void BidirectionalSampler::draw(const Scene& scene, Random& random, float filmX, float filmY,
@@ -45,7 +53,7 @@ void BidirectionalSampler::draw(const Scene& scene, Random& random, float filmX,
       scatter(camera, technique.cameraCoordinate(i - 1), technique.cameraChoice(i - 1),
               i - 1 <= own.t - 2, own.cameraCoordinate(i - 1), own.cameraChoice(i - 1));
     }
-    const Step step = stepCamera(scene, camera, i);
+    const Step step = i < own.t ? keepCamera(*given, i) : stepCamera(scene, camera, i);
     escaped_ = step == Step::kEscaped;
     if (step != Step::kArrived) break;
     cameraVertices_ = i;
@@ -57,16 +65,23 @@ void BidirectionalSampler::draw(const Scene& scene, Random& random, float filmX,
   light.sample.choice[0] = emitted ? given->sample.choice[at(own.lightPick())] : random.uniform();
   for (int i = 0; i < 4; ++i)
     light.sample.u[at(i)] = emitted ? given->sample.u[at(own.lightOffset() + i)] : random.uniform();
-  if (!pickLight(scene, scene.emissionPicker, light.sample.choice[0], light.lightIndex,
-                 light.lightPrimitive))
+  if (emitted) {
+    light.lightIndex = given->lightIndex;
+    light.lightPrimitive = given->lightPrimitive;
+  } else if (!pickLight(scene, scene.emissionPicker, light.sample.choice[0], light.lightIndex,
+                        light.lightPrimitive)) {
     return;
+  }
   for (int i = 1; i < maxLength_; ++i) {
     if (i > 1) {
       const Technique& technique = light.technique;
       scatter(light, technique.lightCoordinate(i - 1), technique.lightChoice(i - 1),
               i - 1 <= own.s - 2, own.lightCoordinate(i - 1), own.lightChoice(i - 1));
     }
-    if (stepLight(scene, light, i) != Step::kArrived) break;
+    if (i < own.s)
+      light.light[at(i)] = given->light[at(i)];
+    else if (stepLight(scene, light, i) != Step::kArrived)
+      break;
     lightVertices_ = i;
   }
   for (int i = 1; i <= cameraVertices_; ++i) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One bidirectional sample: a camera and a light subpath, joined in every way [Veach 1997, ch. 10].
 #pragma once
 
@@ -27,18 +28,20 @@ class BidirectionalSampler {
   int sample(const Scene& scene, Random& random, float filmX, float filmY, int minLength,
              Visit&& visit) {
     draw(scene, random, filmX, filmY, nullptr);
-    return joinAll(scene, minLength, visit);
+    return joinAll(scene, minLength, nullptr, visit);
   }
 
-  // The same with those coordinates that `given` has taken from it, and only the others drawn: a
-  // bidirectional sample of which the given path is one connection.
+  // A bidirectional sample of which the given path is one connection: its vertices and its own
+  // contribution are taken as they are, and only what lies beyond is drawn and traced. (Traced anew from its
+  // primary sample, a path whose vertices came first may be another one by rounding.)
+  // Precondition: given.target > 0.
   template <class Visit>
   int complete(const Scene& scene, Random& random, const Path& given, int minLength,
                Visit&& visit) {
     const float* u = given.sample.u.data();
     const bool camera = given.technique.t >= 2;
     draw(scene, random, camera ? u[0] : -1, camera ? u[1] : -1, &given);
-    return joinAll(scene, minLength, visit);
+    return joinAll(scene, minLength, &given, visit);
   }
 
   // The technique of the last contribution that was not finite.
@@ -49,12 +52,16 @@ class BidirectionalSampler {
 
  private:
   template <class Visit>
-  int joinAll(const Scene& scene, int minLength, Visit&& visit) {
+  int joinAll(const Scene& scene, int minLength, const Path* given, Visit&& visit) {
     int notFinite = 0;
     for (int length = minLength; length <= maxLength_; ++length) {
       for (int s = 0; s <= length; ++s) {
         const Technique technique{s, length + 1 - s};
         if (technique == Technique{1, 1} || !reaches(technique)) continue;
+        if (given && technique == given->technique) {
+          visit(Connection{technique, given->filmX, given->filmY, given->contribution});
+          continue;
+        }
         Connection c{technique, filmX_, filmY_, Rgbf(0)};
         if (!join(scene, c, notFinite)) continue;
         visit(c);
@@ -64,6 +71,8 @@ class BidirectionalSampler {
   }
 
   void draw(const Scene& scene, Random& random, float filmX, float filmY, const Path* given);
+  // The given path's camera vertex i, or its escape, as stepCamera leaves it.
+  Step keepCamera(const Path& given, int i);
   bool reaches(const Technique& technique) const;
   bool join(const Scene& scene, Connection& connection, int& notFinite);
 

@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: MIT
 // How two subpaths become a path: the techniques' last step, with their MIS weights. Visibility is
 // the caller's.
 #pragma once
 
 #include <algorithm>
 
+#include "render/core/index.h"
 #include "render/path/subpath.h"
 
 namespace h2mc {
@@ -101,7 +103,7 @@ template <class T>
 Link<T> linkOfAreaLight(const Scene& scene, const SurfacePoint<T>& point, const Vec3<T>& direction,
                         int light, int t, Techniques techniques, PrimitiveId id = {},
                         const std::type_identity_t<T>* time = nullptr) {
-  const auto& l = std::get<AreaLight>(scene.lights[static_cast<std::size_t>(light)]);
+  const auto& l = std::get<AreaLight>(scene.lights[at(light)]);
   const LightHit<T> hit = l.template hit<T>(scene.lightContext(), point, direction, id, time);
   Link<T> link(hit.radiance);
   if (t > 2 && !link.zero()) weighHit(scene, hit, light, techniques, link);
@@ -122,7 +124,7 @@ Link<T> linkOfEnvironment(const Scene& scene, const Vec3<T>& direction, int t,
         if (t > 2 && !link.zero()) weighHit(scene, hit, light, techniques, link);
         return link;
       },
-      scene.lights[static_cast<std::size_t>(light)]);
+      scene.lights[at(light)]);
 }
 
 // s = 1: next-event estimation from the camera subpath's last vertex. `direct` is left with the
@@ -137,6 +139,7 @@ Link<T> linkToLight(const Scene& scene, const Arrival<T>& vertex, PrimitiveId id
             sampleDirectAt<T>(l, scene.lightContext(), primitive, vertex.point.p, u0, u1, time);
         Link<T> link = Link<T>::none();
         if (!(value(direct.directPdf) > 0)) return link;
+        if (bendBlocks(vertex, direct.direction, Side::kCamera)) return link;
         const Vec3<T> wo = vertex.point.shading.toLocal(direct.direction);
         const BsdfValue<T> e =
             evaluateMaterial<T>(scene.bsdfs, materialAt(scene, id), vertex.point.uv, vertex.wi, wo);
@@ -153,7 +156,7 @@ Link<T> linkToLight(const Scene& scene, const Arrival<T>& vertex, PrimitiveId id
         }
         return link;
       },
-      scene.lights[static_cast<std::size_t>(light)]);
+      scene.lights[at(light)]);
 }
 
 // s >= 2, t >= 2: an edge between the subpaths' last vertices.
@@ -165,6 +168,9 @@ Link<T> linkOfVertices(const Scene& scene, const Arrival<T>& camera, PrimitiveId
   const T inverse2 = T(1) / length2(edge);
   if (!(value(inverse2) < std::numeric_limits<Scalar<T>>::max())) return link;
   const Vec3<T> toLight = edge * sqrt(inverse2);
+  if (bendBlocks(camera, toLight, Side::kCamera) ||
+      bendBlocks(light, Vec3<T>(-toLight), Side::kLight))
+    return link;
   const Vec3<T> wo = camera.point.shading.toLocal(toLight);
   const BsdfValue<T> ec =
       evaluateMaterial<T>(scene.bsdfs, materialAt(scene, cameraId), camera.point.uv, camera.wi, wo);
@@ -195,6 +201,7 @@ Link<T> linkToCamera(const Scene& scene, const Arrival<T>& light, PrimitiveId id
     const Vec3<T> fromCamera = edge * sqrt(inverse2);
     const T cosine = dot(pose.forward, fromCamera);
     if (!(value(cosine) > 0)) return link;
+    if (bendBlocks(light, Vec3<T>(-fromCamera), Side::kLight)) return link;
     const Vec3<T> wi = light.point.shading.toLocal(-fromCamera);
     const BsdfValue<T> e =
         evaluateMaterial<T>(scene.bsdfs, materialAt(scene, id), light.point.uv, wi, light.wi);

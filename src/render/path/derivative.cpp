@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: MIT
 #include "render/path/derivative.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "render/core/index.h"
 #include "render/path/derivative_growing.h"
 #include "render/path/local_form.h"
 
@@ -24,7 +26,7 @@ extern template struct LogTarget<16>;
 
 namespace {
 
-// Above this many coordinates the local form is faster (README, Speed).
+// Above this many coordinates the local form is faster (docs/measurements.md, what the parts cost).
 constexpr int kMostForPlain = 8;
 static_assert(kMostForPlain <= kMaxPlainDimension);
 
@@ -43,18 +45,17 @@ Demands demandsOf(const Scene& scene, const Path& path) {
   // Of the vertices after the eye or the light, up to number `last`.
   const auto add = [&](const std::vector<TracedVertex>& subpath, int last, int scatterings) {
     for (int i = 1; i <= last; ++i) {
-      const TracedVertex& v = subpath[static_cast<std::size_t>(i)];
+      const TracedVertex& v = subpath[at(i)];
+      // Straight on: no derivative knows the angle.
+      if (i <= scatterings && v.lobe.null) continue;
       const float before = 1 / squared(v.vertex.wi.z);
-      if (i > scatterings || v.lobe.null ||
-          !isDelta(scene.bsdfs, materialAt(scene, v.id), v.lobe)) {
+      if (i > scatterings || !isDelta(scene.bsdfs, materialAt(scene, v.id), v.lobe)) {
         demands.curvature += kPartOfOthers * before;
         continue;
       }
       const SurfacePoint<float>& point = v.vertex.point;
-      const Vec3f onwards =
-          i < last
-              ? glm::normalize(subpath[static_cast<std::size_t>(i) + 1].vertex.point.p - point.p)
-              : path.lastRay.direction;
+      const Vec3f onwards = i < last ? glm::normalize(subpath[at(i) + 1].vertex.point.p - point.p)
+                                     : path.lastRay.direction;
       demands.smooth = true;
       demands.curvature += before + 1 / squared(glm::dot(point.shading.n, onwards));
     }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Gradient and Hessian of the log target with respect to a path's primary coordinates, by evaluating
 // the contribution with ad::Dual2. Two forms of it:
 //

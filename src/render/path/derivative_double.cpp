@@ -1,7 +1,9 @@
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <limits>
 
-#include "ad/dual2.h"
+#include "ad/dual.h"
+#include "render/core/index.h"
 #include "render/path/local_form.h"
 #include "render/path/replay.h"
 #include "render/path/replay_double.h"
@@ -32,11 +34,10 @@ ad::DerivativeValues differentiateInDouble(const Scene& scene, const Path& path,
       result.value = y.v;
       for (int i = 0; i < n; ++i) {
         if (lane(i) < 0) continue;
-        result.gradient[static_cast<std::size_t>(i)] = y.gradient(lane(i));
+        result.gradient[at(i)] = y.gradient(lane(i));
         for (int j = 0; j <= i; ++j)
           if (lane(j) >= 0)
-            result.hessian[static_cast<std::size_t>(ad::triangleIndex(i, j))] =
-                y.hessian(lane(i), lane(j));
+            result.hessian[at(ad::triangleIndex(i, j))] = y.hessian(lane(i), lane(j));
       }
     }
   }
@@ -45,7 +46,7 @@ ad::DerivativeValues differentiateInDouble(const Scene& scene, const Path& path,
 
 ad::DerivativeValues differentiateLocallyInDouble(const Scene& scene, const Path& path,
                                                   const double* u) {
-  const auto n = static_cast<std::size_t>(path.dimension());
+  const auto n = at(path.dimension());
   ad::DerivativeValues result;
   result.gradient.resize(n);
   result.hessian.resize(n * (n + 1) / 2);

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: MIT
 // The plain whole-path derivative, growing along the path. Instantiated once for each number of
 // coordinates (derivative_instance.cpp.in), so that no file takes long to compile.
 #pragma once
 
-#include "ad/dual2.h"
+#include "ad/dual.h"
 #include "render/path/derivative.h"
 #include "render/path/replay.h"
 
@@ -35,6 +36,8 @@ PathVertex<Dual<N>> lift(const PathVertex<Dual<M>>& a) {
   b.point.shading = lift<N, Offset>(a.point.shading);
   b.point.flat = a.point.flat;
   b.point.constantNormal = a.point.constantNormal;
+  b.point.bend = a.point.bend;
+  b.point.unbent = a.point.unbent;
   b.point.uv = {lift<N, Offset>(a.point.uv.x), lift<N, Offset>(a.point.uv.y)};
   b.wi = lift<N, Offset>(a.wi);
   b.cosIn = lift<N, Offset>(a.cosIn);
@@ -51,22 +54,26 @@ PathRay<Dual<N>> lift(const PathRay<Dual<M>>& a) {
   b.throughput = lift<N, Offset>(a.throughput);
   b.vcm = lift<N, Offset>(a.vcm);
   b.vc = lift<N, Offset>(a.vc);
-  b.originNormal = a.originNormal;
   b.fromInfinity = a.fromInfinity;
   return b;
+}
+
+// The ray that leaves the vertex `index`, where `arrived` arrives: two more coordinates make it.
+template <int A, int Arrived>
+PathRay<Dual<A>> scattered(const Scene& scene, const Path& path, Side side, int index,
+                           const PathRay<Dual<Arrived>>& arrived, const Dual<A>& u0,
+                           const Dual<A>& u1) {
+  const TracedVertex& traced = (side == Side::kCamera ? path.camera : path.light)[at(index)];
+  const auto vertex = arriveAt<Dual<Arrived>>(scene, arrived, traced.id);
+  if (traced.lobe.null) return lift<A, 0>(passThrough(scene, arrived, vertex.point, traced.id));
+  return scatterFrom<Dual<A>>(scene, lift<A, 0>(vertex), traced.id, traced.lobe, u0, u1, side);
 }
 
 // The camera subpath's ray that A coordinates have made: towards vertex A / 2.
 template <int A>
 struct CameraSubpath {
   static PathRay<Dual<A>> ray(const Scene& scene, const Path& path);
-  static PathVertex<Dual<A>> vertex(const Scene& scene, const Path& path);
 };
-
-template <int A>
-PathVertex<Dual<A>> CameraSubpath<A>::vertex(const Scene& scene, const Path& path) {
-  return arriveAt<Dual<A>>(scene, ray(scene, path), path.camera[A / 2].id);
-}
 
 template <int A>
 PathRay<Dual<A>> CameraSubpath<A>::ray(const Scene& scene, const Path& path) {
@@ -75,30 +82,28 @@ PathRay<Dual<A>> CameraSubpath<A>::ray(const Scene& scene, const Path& path) {
   if constexpr (A == 2) {
     return startCamera<Dual<A>>(scene, u0, u1);
   } else {
-    return replayScatter<Dual<A>>(scene, path, Side::kCamera, A / 2 - 1,
-                                  lift<A, 0>(CameraSubpath<A - 2>::vertex(scene, path)), u0, u1);
+    return scattered<A>(scene, path, Side::kCamera, A / 2 - 1,
+                        CameraSubpath<A - 2>::ray(scene, path), u0, u1);
   }
 }
 
-// The light subpath's vertex that A coordinates have made, number A / 2 - 1 after the light (A >= 4).
+// The light subpath's ray that A coordinates have made: towards vertex A / 2 - 1 after the light (A >= 4).
 template <int A>
 struct LightSubpath {
-  static PathVertex<Dual<A>> vertex(const Scene& scene, const Path& path);
+  static PathRay<Dual<A>> ray(const Scene& scene, const Path& path);
 };
 
 template <int A>
-PathVertex<Dual<A>> LightSubpath<A>::vertex(const Scene& scene, const Path& path) {
+PathRay<Dual<A>> LightSubpath<A>::ray(const Scene& scene, const Path& path) {
   const float* u = path.sample.u.data() + path.technique.lightOffset();
   const Dual<A> u0 = Dual<A>::variable(u[A - 2], A - 2), u1 = Dual<A>::variable(u[A - 1], A - 1);
-  PathRay<Dual<A>> ray;
   if constexpr (A == 4) {
-    ray = startLight<Dual<A>>(scene, path.lightIndex, path.lightPrimitive,
-                              Dual<A>::variable(u[0], 0), Dual<A>::variable(u[1], 1), u0, u1);
+    return startLight<Dual<A>>(scene, path.lightIndex, path.lightPrimitive,
+                               Dual<A>::variable(u[0], 0), Dual<A>::variable(u[1], 1), u0, u1);
   } else {
-    ray = replayScatter<Dual<A>>(scene, path, Side::kLight, A / 2 - 2,
-                                 lift<A, 0>(LightSubpath<A - 2>::vertex(scene, path)), u0, u1);
+    return scattered<A>(scene, path, Side::kLight, A / 2 - 2, LightSubpath<A - 2>::ray(scene, path),
+                        u0, u1);
   }
-  return arriveAt<Dual<A>>(scene, ray, path.light[A / 2 - 1].id);
 }
 
 template <int N>
@@ -136,7 +141,9 @@ Dual<N> evaluateTechnique(const Scene& scene, const Path& path) {
     if (!path.escaped) camera = lift<N, 0>(arriveAt<Dual<kCamera>>(scene, r, path.camera[C].id));
   }
   if constexpr (kLight >= 4) {
-    if (path.technique.s >= 2) light = lift<N, kCamera>(LightSubpath<kLight>::vertex(scene, path));
+    if (path.technique.s >= 2)
+      light = lift<N, kCamera>(arriveAt<Dual<kLight>>(scene, LightSubpath<kLight>::ray(scene, path),
+                                                      path.light[kLight / 2 - 1].id));
   }
   return LogTarget<N>::join(scene, path, ray, camera, light);
 }

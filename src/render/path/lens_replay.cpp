@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: MIT
 #include "render/path/lens_replay.h"
 
-#include "ad/dual2.h"
+#include "ad/dual.h"
+#include "render/core/index.h"
 #include "render/path/replay.h"
 
 namespace h2mc {
@@ -17,6 +19,8 @@ SurfacePoint<T> constant(const SurfacePoint<float>& a) {
   b.shading.assign(a.shading);
   b.flat = a.flat;
   b.constantNormal = true;
+  b.bend = a.bend;
+  b.unbent = a.unbent;
   b.uv = {T(a.uv.x), T(a.uv.y)};
   return b;
 }
@@ -31,8 +35,6 @@ PathVertex<T> constant(const PathVertex<float>& a) {
   b.vc = T(a.vc);
   return b;
 }
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // The direction from camera vertex i, which is `here`, to the one after it, which stays.
 Vec3<T> towardsNext(const Path& path, int i, const Vec3<T>& here) {
@@ -58,9 +60,10 @@ void differentiateLens(const Scene& scene, const Path& path, int reconnection, D
       const TracedVertex& previous = path.camera[at(i) - 1];
       const int k = technique.cameraCoordinate(i - 1);
       if (!stays) {
-        ray = replayScatter<T>(scene, path, Side::kCamera, i - 1, camera, T(u[k]), T(u[k + 1]));
+        ray =
+            replayScatter<T>(scene, path, Side::kCamera, i - 1, ray, camera, T(u[k]), T(u[k + 1]));
       } else if (isDelta(scene.bsdfs, materialAt(scene, previous.id), previous.lobe)) {
-        ray = scatterDelta<T>(scene, camera, previous.id, previous.lobe, Side::kCamera);
+        ray = scatterDelta<T>(scene, ray, camera, previous.id, previous.lobe, Side::kCamera);
       } else {
         const Vec3<T> direction = towardsNext(path, i - 1, camera.point.p);
         ray = scatterTowards<T>(scene, camera, previous.id, camera.point.shading.toLocal(direction),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A path whose pixel moves while the rest stays where it is as soon as it can: what the lens
 // perturbation does, as a function of the film position.
 #pragma once

@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: MIT
 #include "render/path/light_use.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "render/core/index.h"
 #include "render/core/random.h"
 #include "render/path/connect.h"
 #include "render/path/path.h"
@@ -75,7 +77,7 @@ void pickLightsByUse(Scene& scene) {
     path.sample.u[1] = (static_cast<float>(row) + random.uniform()) / size;
     path.sample.time = scene.moving ? random.uniform() : 0;
     for (int i = 1; i <= kVertices && stepCamera(scene, path, i) == Step::kArrived; ++i) {
-      const TracedVertex& v = path.camera[static_cast<std::size_t>(i)];
+      const TracedVertex& v = path.camera[at(i)];
       if (hasNonDelta(scene.bsdfs, materialAt(scene, v.id)))
         addShares(scene, v, path.sample.time, random, values, squares);
     }

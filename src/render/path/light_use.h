@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which lights matter to what the camera sees.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The vertex-local derivative of the log target: each step of a path is differentiated with respect to
 // the few numbers that it depends on, and ad::Composition puts the steps together. The cost of a vertex
 // does not grow with the path.
@@ -11,6 +12,7 @@
 
 #include "ad/composition.h"
 #include "render/core/direction_chart.h"
+#include "render/core/index.h"
 #include "render/path/connect.h"
 #include "render/path/path.h"
 
@@ -36,7 +38,8 @@ class LocalForm {
 
   // Positions among a step's outputs, kNone for what is not there.
   struct Leaving {
-    int at[2], direction[2], vcm = kNone;
+    int at, direction,
+        vcm = kNone;  // two outputs each of the first two, of `at` for each vertex met
   };
   struct Factors {
     int vcm = kNone, vc = kNone;
@@ -44,7 +47,9 @@ class LocalForm {
 
   // A subpath that has arrived at a vertex.
   struct Subpath {
-    Variable at[2], direction[2];
+    // Two variables each. The coordinates of vertices that the ray meets only because it goes straight on through
+    // this one follow `at`.
+    Variable at, direction;
     DirectionChart<S> chart{Vec3<S>(0, 0, 1)};  // of `direction`
     // Logarithms, kNone where they are zero: of the ray, vcm times the squared length. Arrival divides
     // both by cosIn.
@@ -58,12 +63,14 @@ class LocalForm {
   template <int M>
   Leaving leave(Step<M>& step, const Vec3<typename Step<M>::D>& origin,
                 const Vec3<typename Step<M>::D>& direction, typename Step<M>::D vcm,
-                bool fromInfinity, const TracedVertex& next, DirectionChart<S>& chart);
+                bool fromInfinity, Side side, int next, DirectionChart<S>& chart);
   template <int M>
   void arrive(const Step<M>& step, const Leaving& leaving, Subpath& subpath);
   template <int M>
   Arrival<typename Step<M>::D> arrival(const Step<M>& step, int first, const Subpath& subpath,
                                        const TracedVertex& vertex) const;
+  template <int M>
+  Vec2<typename Step<M>::D> uvAt(const Step<M>& step, const TracedVertex& vertex) const;
   template <int M>
   void logFactor(Step<M>& step, const Rgb<typename Step<M>::D>& factor, int (&outputs)[3]);
   template <int M>
@@ -85,18 +92,33 @@ class LocalForm {
   void startCamera();
   void startLight();
   void scatter(Side side, int index);
+  void passThrough(Side side, int index);
   void seeEnvironment();  // the camera's own ray escapes
   void scatterToEnvironment();
+  void passToEnvironment();
   void hitLight();
   void connectToLight();
   void connectVertices();
+  void countCancelledChord(const TracedVertex& cameraEnd, const TracedVertex& lightEnd);
   void connectToCamera();
   Variable finish();
 
-  const TracedVertex& cameraVertex(int i) const {
-    return path_.camera[static_cast<std::size_t>(i)];
+  const TracedVertex& cameraVertex(int i) const { return path_.camera[at(i)]; }
+  const TracedVertex& lightVertex(int i) const { return path_.light[at(i)]; }
+  const TracedVertex& vertexOf(Side side, int i) const {
+    return side == Side::kCamera ? cameraVertex(i) : lightVertex(i);
   }
-  const TracedVertex& lightVertex(int i) const { return path_.light[static_cast<std::size_t>(i)]; }
+  // The number of a subpath's last vertex.
+  int lastVertex(Side side) const {
+    const auto [s, t] = path_.technique;
+    return side == Side::kCamera ? t - (path_.escaped ? 2 : 1) : s - 1;
+  }
+  // How many vertices the ray goes straight on through, from the one at `next` on.
+  int passedFrom(Side side, int next) const {
+    int count = 0;
+    while (next + count < lastVertex(side) && vertexOf(side, next + count).lobe.null) ++count;
+    return count;
+  }
 
   const Scene& scene_;
   const Path& path_;

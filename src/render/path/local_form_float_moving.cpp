@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/path/local_form_steps.h"
 
 namespace h2mc {

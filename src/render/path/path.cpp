@@ -1,9 +1,12 @@
+// SPDX-License-Identifier: MIT
 #include "render/path/path.h"
 
 #include <chrono>
 #include <cmath>
 
+#include "render/core/index.h"
 #include "render/geometry/ray_tracer.h"
+#include "render/path/path_steps.h"
 
 namespace h2mc {
 namespace {
@@ -21,22 +24,21 @@ auto timedQuery(Query&& query) {
   return result;
 }
 
-bool dark(const Rgbf& c) { return !(c.x > 0) && !(c.y > 0) && !(c.z > 0); }
-
 bool withinClip(const Camera& camera, float depth) {
   return depth >= camera.nearClip && depth <= camera.farClip;
 }
 
-void markScatterWraps(const Scene& scene, Path& path, const TracedVertex& vertex, int coordinate) {
-  // A lobe's second coordinate is its azimuth; a delta lobe uses neither.
-  const bool delta = isDelta(scene.bsdfs, materialAt(scene, vertex.id), vertex.lobe);
-  path.wraps |= CoordinateMask(delta ? 3 : 2) << coordinate;
+// Where the ray from the camera to `p` starts: nearClip / cosine along it, as in nextPrimitive. What lies
+// before it hides nothing.
+Vec3f onNearPlane(const Camera& camera, const CameraPose<float>& pose, const Vec3f& p) {
+  const Vec3f fromCamera = p - pose.position;
+  return pose.position + fromCamera * (camera.nearClip / dot(pose.forward, fromCamera));
 }
 
 PathRay<float> scatter(const Scene& scene, Path& path, TracedVertex& v, int coordinate,
                        float choice, Side side) {
-  const float u0 = path.sample.u[static_cast<std::size_t>(coordinate)];
-  const float u1 = path.sample.u[static_cast<std::size_t>(coordinate) + 1];
+  const float u0 = path.sample.u[at(coordinate)];
+  const float u1 = path.sample.u[at(coordinate) + 1];
   v.lobe = chooseLobe(scene.bsdfs, materialAt(scene, v.id), v.vertex.point.uv, v.vertex.wi, u0, u1,
                       choice);
   markScatterWraps(scene, path, v, coordinate);
@@ -51,7 +53,31 @@ void finish(const Contribution<float>& c, Joined& joined) {
   joined.contribution = joined.finite ? value : Rgbf(0);
 }
 
+bool cameraSees(const Scene& scene, const CameraPose<float>& pose, const SurfacePoint<float>& point,
+                float& filmX, float& filmY) {
+  const Vec3f fromCamera = point.p - pose.position;
+  return withinClip(scene.camera, dot(pose.forward, fromCamera)) &&
+         scene.camera.project(pose, fromCamera, filmX, filmY);
+}
+
 }  // namespace
+
+void markScatterWraps(const Scene& scene, Path& path, const TracedVertex& vertex, int coordinate) {
+  // A lobe's second coordinate is its azimuth; a delta lobe uses neither.
+  const bool delta = isDelta(scene.bsdfs, materialAt(scene, vertex.id), vertex.lobe);
+  path.wraps |= CoordinateMask(delta ? 3 : 2) << coordinate;
+}
+
+void markLightWraps(const Scene& scene, Path& path) {
+  const Technique& technique = path.technique;
+  const unsigned wraps = std::visit(
+      [&](const auto& l) {
+        return technique.s == 1 ? l.wrapsDirect(scene.lightContext())
+                                : l.wrapsEmission(scene.lightContext());
+      },
+      scene.lights[at(path.lightIndex)]);
+  path.wraps |= CoordinateMask(wraps) << technique.lightOffset();
+}
 
 RaySeconds::RaySeconds(bool on) {
   if (on) raySeconds = &seconds_;
@@ -67,38 +93,39 @@ PrimitiveId nextPrimitive(const Scene& scene, const PathRay<float>& ray, bool fr
     farthest = scene.camera.farClip / cosine;
   }
   return timedQuery([&] {
-    return scene.tracer->intersect(ray.origin, ray.originNormal, ray.direction, nearest, farthest,
-                                   time);
+    const RayEnd open{ray.origin};
+    return scene.tracer->intersect(ray.surface.shape == ~0u ? open : ray.surface, ray.direction,
+                                   nearest, farthest, time);
   });
 }
 
 bool pointEscapes(const Scene& scene, const SurfacePoint<float>& point, const Vec3f& direction,
                   float time) {
-  return timedQuery([&] { return scene.tracer->escapes(point.p, point.ng, direction, time); });
+  return timedQuery([&] { return scene.tracer->escapes(point.end(), direction, time); });
 }
 
 bool pointsVisible(const Scene& scene, const SurfacePoint<float>& a, const SurfacePoint<float>& b,
                    float time) {
-  return timedQuery([&] { return scene.tracer->visible(a.p, a.ng, b.p, b.ng, time); });
+  return timedQuery([&] { return scene.tracer->visible(a.end(), b.end(), time); });
 }
 
 bool lightVisible(const Scene& scene, const SurfacePoint<float>& point, int light,
                   const DirectLight<float>& direct, float time) {
-  const Light& l = scene.lights[static_cast<std::size_t>(light)];
+  const Light& l = scene.lights[at(light)];
   if (std::visit([](const auto& x) { return x.isInfinite(); }, l))
     return pointEscapes(scene, point, direct.direction, time);
-  return timedQuery([&] {
-    return scene.tracer->visible(point.p, point.ng, direct.position, direct.normal, time);
-  });
+  RayEnd end{direct.position, direct.normal};
+  if (const auto* area = std::get_if<AreaLight>(&l))
+    end.shape = static_cast<std::uint32_t>(area->shape);
+  return timedQuery([&] { return scene.tracer->visible(point.end(), end, time); });
 }
 
 bool cameraVisible(const Scene& scene, const SurfacePoint<float>& point, float time, float& filmX,
                    float& filmY) {
   const CameraPose<float> pose = scene.camera.poseOf(time);
-  const Vec3f fromCamera = point.p - pose.position;
-  return withinClip(scene.camera, dot(pose.forward, fromCamera)) &&
-         scene.camera.project(pose, fromCamera, filmX, filmY) && timedQuery([&] {
-           return scene.tracer->visible(point.p, point.ng, pose.position, Vec3f(0), time);
+  return cameraSees(scene, pose, point, filmX, filmY) && timedQuery([&] {
+           return scene.tracer->visible(point.end(), {onNearPlane(scene.camera, pose, point.p)},
+                                        time);
          });
 }
 
@@ -109,9 +136,9 @@ bool touchesMotion(const Scene& scene, const Path& path) {
   const auto [s, t] = path.technique;
   const int cameraEnd = path.escaped ? t - 1 : t;
   for (int i = 1; i < cameraEnd; ++i)
-    if (moves(path.camera[static_cast<std::size_t>(i)])) return true;
+    if (moves(path.camera[at(i)])) return true;
   for (int i = 1; i < s; ++i)
-    if (moves(path.light[static_cast<std::size_t>(i)])) return true;
+    if (moves(path.light[at(i)])) return true;
   // Lights that are no shape stand still.
   return s >= 1 && path.lightPrimitive.valid() && scene.shapes[path.lightPrimitive.shape].moves();
 }
@@ -124,14 +151,12 @@ Step stepCamera(const Scene& scene, Path& path, int i) {
     path.filmY = path.sample.u[1];
     ray = startCamera<float>(scene, path.filmX, path.filmY, &path.sample.time);
   } else {
-    ray = scatter(scene, path, path.camera[static_cast<std::size_t>(i) - 1],
-                  technique.cameraCoordinate(i - 1),
-                  path.sample.choice[static_cast<std::size_t>(technique.cameraChoice(i - 1))],
-                  Side::kCamera);
+    ray = scatter(scene, path, path.camera[at(i) - 1], technique.cameraCoordinate(i - 1),
+                  path.sample.choice[at(technique.cameraChoice(i - 1))], Side::kCamera);
     if (dark(ray.throughput)) return Step::kDead;
   }
   path.lastRay = ray;
-  TracedVertex& v = path.camera[static_cast<std::size_t>(i)];
+  TracedVertex& v = path.camera[at(i)];
   v.id = nextPrimitive(scene, ray, i == 1, path.sample.time);
   if (!v.id.valid()) return Step::kEscaped;
   v.vertex = arriveAt<float>(scene, ray, v.id, &path.sample.time);
@@ -152,7 +177,7 @@ bool traceCamera(const Scene& scene, Path& path, int first) {
 
 PrimitiveId pickPrimitive(const Scene& scene, int light, float choice) {
   return std::visit([&](const auto& l) { return l.choosePrimitive(scene.lightContext(), choice); },
-                    scene.lights[static_cast<std::size_t>(light)]);
+                    scene.lights[at(light)]);
 }
 
 bool pickLight(const Scene& scene, const LightPicker& picker, float choice, int& light,
@@ -172,12 +197,11 @@ Step stepLight(const Scene& scene, Path& path, int i) {
     ray = startLight<float>(scene, path.lightIndex, path.lightPrimitive, u[0], u[1], u[2], u[3],
                             &path.sample.time);
   } else {
-    ray = scatter(
-        scene, path, path.light[static_cast<std::size_t>(i) - 1], technique.lightCoordinate(i - 1),
-        path.sample.choice[static_cast<std::size_t>(technique.lightChoice(i - 1))], Side::kLight);
+    ray = scatter(scene, path, path.light[at(i) - 1], technique.lightCoordinate(i - 1),
+                  path.sample.choice[at(technique.lightChoice(i - 1))], Side::kLight);
   }
   if (dark(ray.throughput)) return Step::kDead;
-  TracedVertex& v = path.light[static_cast<std::size_t>(i)];
+  TracedVertex& v = path.light[at(i)];
   v.id = nextPrimitive(scene, ray, false, path.sample.time);
   if (!v.id.valid()) return Step::kEscaped;
   v.vertex = arriveAt<float>(scene, ray, v.id, &path.sample.time);
@@ -188,22 +212,19 @@ bool traceLight(const Scene& scene, Path& path) {
   const Technique& technique = path.technique;
   if (technique.s == 0) return true;
   const LightPicker& picker = technique.s == 1 ? scene.directPicker : scene.emissionPicker;
-  if (!pickLight(scene, picker, path.sample.choice[static_cast<std::size_t>(technique.lightPick())],
-                 path.lightIndex, path.lightPrimitive))
+  if (!pickLight(scene, picker, path.sample.choice[at(technique.lightPick())], path.lightIndex,
+                 path.lightPrimitive))
     return false;
-  const unsigned wraps = std::visit(
-      [&](const auto& l) {
-        return technique.s == 1 ? l.wrapsDirect(scene.lightContext())
-                                : l.wrapsEmission(scene.lightContext());
-      },
-      scene.lights[static_cast<std::size_t>(path.lightIndex)]);
-  path.wraps |= CoordinateMask(wraps) << technique.lightOffset();
+  markLightWraps(scene, path);
   for (int i = 1; i < technique.s; ++i)
     if (stepLight(scene, path, i) != Step::kArrived) return false;
   return true;
 }
 
-Joined join(const Scene& scene, const Ends& ends) {
+namespace {
+
+// As join() says; `cast`: whether with a shadow ray.
+Joined joinEnds(const Scene& scene, const Ends& ends, bool cast) {
   const auto [s, t] = ends.technique;
   constexpr auto kBoth = Techniques::kBidirectional;
   Joined joined;
@@ -227,30 +248,36 @@ Joined join(const Scene& scene, const Ends& ends) {
                                  ends.lightPrimitive, ends.u0, ends.u1, kBoth, direct, &ends.time),
            joined);
     if (dark(joined.contribution)) return joined;
-    visible = lightVisible(scene, ends.camera->vertex.point, ends.lightIndex, direct, ends.time);
+    visible =
+        !cast || lightVisible(scene, ends.camera->vertex.point, ends.lightIndex, direct, ends.time);
   } else if (t == 1) {
     finish(connectToCamera<float>(scene, ends.light->vertex, ends.light->id, &ends.time), joined);
     if (dark(joined.contribution)) return joined;
-    visible = cameraVisible(scene, ends.light->vertex.point, ends.time, joined.filmX, joined.filmY);
+    const SurfacePoint<float>& point = ends.light->vertex.point;
+    visible =
+        cast ? cameraVisible(scene, point, ends.time, joined.filmX, joined.filmY)
+             : cameraSees(scene, scene.camera.poseOf(ends.time), point, joined.filmX, joined.filmY);
   } else {
     const TracedVertex &camera = *ends.camera, &light = *ends.light;
     finish(connectVertices<float>(scene, camera.vertex, camera.id, light.vertex, light.id), joined);
     if (dark(joined.contribution)) return joined;
-    visible = pointsVisible(scene, camera.vertex.point, light.vertex.point, ends.time);
+    visible = !cast || pointsVisible(scene, camera.vertex.point, light.vertex.point, ends.time);
   }
   if (!visible) joined.contribution = Rgbf(0);
   return joined;
 }
 
-bool joinSubpaths(const Scene& scene, Path& path) {
+bool joinPath(const Scene& scene, Path& path, bool cast) {
   const auto [s, t] = path.technique;
   const float* u = path.sample.u.data() + path.technique.lightOffset();
-  const TracedVertex* camera = &path.camera[static_cast<std::size_t>(t) - 1];
-  const TracedVertex* light = s >= 2 ? &path.light[static_cast<std::size_t>(s) - 1] : nullptr;
+  const TracedVertex* camera = &path.camera[at(t) - 1];
+  const TracedVertex* light = s >= 2 ? &path.light[at(s) - 1] : nullptr;
   const bool direct = s == 1;
-  const Joined joined = join(scene, {path.technique, path.escaped ? nullptr : camera, light,
-                                     &path.lastRay, path.lightIndex, path.lightPrimitive,
-                                     direct ? u[0] : 0, direct ? u[1] : 0, path.sample.time});
+  const Joined joined = joinEnds(
+      scene,
+      {path.technique, path.escaped ? nullptr : camera, light, &path.lastRay, path.lightIndex,
+       path.lightPrimitive, direct ? u[0] : 0, direct ? u[1] : 0, path.sample.time},
+      cast);
   if (s == 0)
     path.lightIndex = path.escaped ? scene.environment : scene.shapes[camera->id.shape].light;
   if (t == 1) {
@@ -263,6 +290,12 @@ bool joinSubpaths(const Scene& scene, Path& path) {
   path.moving = touchesMotion(scene, path);
   return path.target > 0;
 }
+
+}  // namespace
+
+Joined join(const Scene& scene, const Ends& ends) { return joinEnds(scene, ends, true); }
+bool joinSubpaths(const Scene& scene, Path& path) { return joinPath(scene, path, true); }
+bool joinVisible(const Scene& scene, Path& path) { return joinPath(scene, path, false); }
 
 bool tracePath(const Scene& scene, Path& path) {
   path.contribution = Rgbf(0);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A path with all that is known of it: primary sample, topology, vertices, contribution.
 #pragma once
 
@@ -103,7 +104,7 @@ Joined join(const Scene& scene, const Ends& ends);
 // Shadow rays: whether `point` sees the light along its direct sample.
 bool lightVisible(const Scene& scene, const SurfacePoint<float>& point, int light,
                   const DirectLight<float>& direct, float time);
-// Whether the camera sees `point`, and where on the film.
+// Whether the camera sees `point`, and where on the film: from its near clipping plane on, as its rays do.
 bool cameraVisible(const Scene& scene, const SurfacePoint<float>& point, float time, float& filmX,
                    float& filmY);
 

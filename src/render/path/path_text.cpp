@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/path/path_text.h"
 
 #include <fmt/format.h>
@@ -6,6 +7,8 @@
 #include <map>
 #include <sstream>
 #include <vector>
+
+#include "render/core/index.h"
 
 namespace h2mc {
 namespace {
@@ -27,10 +30,10 @@ bool parseNumbers(const std::string& text, std::vector<float>& numbers) {
 std::string pathText(const Technique& technique, const PrimarySample& sample) {
   std::string text = fmt::format("s={} t={} u=", technique.s, technique.t);
   for (int i = 0; i < technique.dimension(); ++i)
-    text += fmt::format("{}{:a}", i ? "," : "", sample.u[static_cast<std::size_t>(i)]);
+    text += fmt::format("{}{:a}", i ? "," : "", sample.u[at(i)]);
   text += " choice=";
   for (int i = 0; i < technique.choices(); ++i)
-    text += fmt::format("{}{:a}", i ? "," : "", sample.choice[static_cast<std::size_t>(i)]);
+    text += fmt::format("{}{:a}", i ? "," : "", sample.choice[at(i)]);
   if (sample.time > 0) text += fmt::format(" time={:a}", sample.time);
   return text;
 }

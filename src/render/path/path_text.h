@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A path's technique and primary sample as a line of text, exact to the last bit: what replays it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Techniques and the primary sample space that each of them has.
 #pragma once
 

@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: MIT
 // A traced path evaluated again on its frozen topology, over any scalar type: no rays, no choices.
 #pragma once
 
+#include "render/core/index.h"
 #include "render/path/path.h"
 
 namespace h2mc {
@@ -13,12 +15,13 @@ template <class T>
 T replayLogTarget(const Scene& scene, const Path& path, const T* u,
                   const std::type_identity_t<T>* time = nullptr);
 
-// The camera subpath's last ray and vertex, the light subpath's last vertex.
+// The ray that leaves the subpath's vertex `index`, where the ray `arrived` has arrived.
 template <class T>
 PathRay<T> replayScatter(const Scene& scene, const Path& path, Side side, int index,
-                         const PathVertex<T>& vertex, const T& u0, const T& u1) {
-  const TracedVertex& traced =
-      (side == Side::kCamera ? path.camera : path.light)[static_cast<std::size_t>(index)];
+                         const PathRay<T>& arrived, const PathVertex<T>& vertex, const T& u0,
+                         const T& u1) {
+  const TracedVertex& traced = (side == Side::kCamera ? path.camera : path.light)[at(index)];
+  if (traced.lobe.null) return passThrough(scene, arrived, vertex.point, traced.id);
   return scatterFrom<T>(scene, vertex, traced.id, traced.lobe, u0, u1, side);
 }
 
@@ -29,9 +32,8 @@ T joinedLogTarget(const Scene& scene, const Path& path, const PathRay<T>& camera
                   const PathVertex<T>& camera, const PathVertex<T>& light, const T* u,
                   const std::type_identity_t<T>* time = nullptr) {
   const auto [s, t] = path.technique;
-  const PrimitiveId cameraId = path.camera[static_cast<std::size_t>(t) - 1].id;
-  const PrimitiveId lightId =
-      s >= 2 ? path.light[static_cast<std::size_t>(s) - 1].id : PrimitiveId{};
+  const PrimitiveId cameraId = path.camera[at(t) - 1].id;
+  const PrimitiveId lightId = s >= 2 ? path.light[at(s) - 1].id : PrimitiveId{};
   constexpr auto kBoth = Techniques::kBidirectional;
   Contribution<T> c;
   if (s == 0) {
@@ -61,10 +63,10 @@ T replayLogTarget(const Scene& scene, const Path& path, const T* u,
     for (int i = 1; i < technique.t; ++i) {
       if (i > 1) {
         const T* v = u + technique.cameraCoordinate(i - 1);
-        ray = replayScatter<T>(scene, path, Side::kCamera, i - 1, camera, v[0], v[1]);
+        ray = replayScatter<T>(scene, path, Side::kCamera, i - 1, ray, camera, v[0], v[1]);
       }
       if (i == technique.t - 1 && path.escaped) break;
-      camera = arriveAt<T>(scene, ray, path.camera[static_cast<std::size_t>(i)].id, time);
+      camera = arriveAt<T>(scene, ray, path.camera[at(i)].id, time);
     }
   }
   const T* lightU = u + technique.lightOffset();
@@ -74,9 +76,9 @@ T replayLogTarget(const Scene& scene, const Path& path, const T* u,
     for (int i = 1; i < technique.s; ++i) {
       if (i > 1) {
         const T* v = u + technique.lightCoordinate(i - 1);
-        emitted = replayScatter<T>(scene, path, Side::kLight, i - 1, light, v[0], v[1]);
+        emitted = replayScatter<T>(scene, path, Side::kLight, i - 1, emitted, light, v[0], v[1]);
       }
-      light = arriveAt<T>(scene, emitted, path.light[static_cast<std::size_t>(i)].id, time);
+      light = arriveAt<T>(scene, emitted, path.light[at(i)].id, time);
     }
   }
   return joinedLogTarget<T>(scene, path, ray, camera, light, lightU, time);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/path/replay_double.h"
 
 #include "render/path/replay.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The log target of a traced path in double: values for differences, and derivatives of any number of
 // coordinates, for checking. The same templates as the float derivatives, compiled once each.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The local functions of which every path is made, over any scalar type: leave the camera or a
 // light, arrive at a surface, scatter. With T = float they trace; with a derivative type they give
 // the derivatives of what was traced, on the frozen topology.
@@ -12,9 +13,12 @@
 #pragma once
 
 #include <algorithm>
+#include <type_traits>
 
 #include "render/bsdf/material.h"
+#include "render/core/index.h"
 #include "render/geometry/surface.h"
+#include "render/path/frame_map.h"
 #include "render/scene/scene.h"
 
 namespace h2mc {
@@ -26,11 +30,13 @@ enum class Side { kCamera, kLight };
 template <class T>
 struct PathRay {
   Vec3<T> origin;
-  Vec3<T> direction;                // unit
-  Rgb<T> throughput;                // of the subpath, divided by the densities that made it
-  T vcm, vc;                        // root of d_VCM, d_VC
-  Vec3<Scalar<T>> originNormal{0};  // geometric normal there, zero where there is no surface
-  bool fromInfinity = false;        // left an infinite light: its distance is no density's business
+  Vec3<T> direction;  // unit
+  Rgb<T> throughput;  // of the subpath, divided by the densities that made it
+  T vcm, vc;          // root of d_VCM, d_VC
+  // The surface that it leaves or has gone straight on through, from where on rays are cast: kept for floats alone.
+  // Of no shape: it starts at its origin, in the open.
+  RayEnd surface;
+  bool fromInfinity = false;  // left an infinite light: its distance is no density's business
 };
 
 // |cos| with the geometric normal of a direction: `local` in the shading frame, `world` in the world.
@@ -55,11 +61,20 @@ struct Arrival {
         wi(point.shading.toLocal(-direction)),
         cosIn(geometricCosine(point, wi, direction)) {}
 };
+
+// The line along which a ray has arrived. Vertices of duals do without: theirs is at hand where it is needed.
+template <class T>
+struct Line {
+  Vec3<T> origin, direction;
+};
+struct NoLine {};
+
 // The same with what the subpath brings along.
 template <class T>
 struct PathVertex : Arrival<T> {
   Rgb<T> throughput;
   T vcm, vc;
+  [[no_unique_address]] std::conditional_t<ad::isDual<T>, NoLine, Line<T>> line;
 
   PathVertex() = default;
   // At the point that find() returns, which the ray is known to hit.
@@ -70,6 +85,7 @@ struct PathVertex : Arrival<T> {
     vcm = ray.vcm * inverse;
     if (!ray.fromInfinity) vcm = vcm * distance2(this->point.p, ray.origin);
     vc = ray.vc * inverse;
+    if constexpr (!ad::isDual<T>) line = {ray.origin, ray.direction};
   }
 };
 
@@ -100,7 +116,7 @@ T rootOfSquares(const T& a, const T& b) {
 }
 
 inline const Material& materialAt(const Scene& scene, PrimitiveId id) {
-  return scene.materials[static_cast<std::size_t>(scene.shapes[id.shape].material)];
+  return scene.materials[at(scene.shapes[id.shape].material)];
 }
 
 // Calls f with the camera's pose: plain numbers where it stands still, functions of time otherwise.
@@ -142,7 +158,7 @@ PathRay<T> startLight(const Scene& scene, int light, PrimitiveId primitive, cons
         ray.direction = e.direction;
         // The frames that lights have are of unit length in float.
         if constexpr (std::is_same_v<S, double>) ray.direction = normalize(ray.direction);
-        ray.originNormal = value3(e.normal);
+        if constexpr (std::is_same_v<T, float>) ray.surface = {e.origin, e.normal, primitive.shape};
         const T inverse = T(1) / (e.emissionPdf * pick);
         ray.throughput = e.flux * (S(1) / pick);
         ray.vcm = e.directPdf * (direct / pick) / e.emissionPdf;
@@ -150,7 +166,7 @@ PathRay<T> startLight(const Scene& scene, int light, PrimitiveId primitive, cons
         ray.fromInfinity = l.isInfinite();
         return ray;
       },
-      scene.lights[static_cast<std::size_t>(light)]);
+      scene.lights[at(light)]);
 }
 
 // One function, not inlined: compilers contract a b + c as its surroundings suggest, and a path that is
@@ -158,8 +174,12 @@ PathRay<T> startLight(const Scene& scene, int light, PrimitiveId primitive, cons
 template <class T>
 [[gnu::noinline]] PathVertex<T> arriveAt(const Scene& scene, const PathRay<T>& ray, PrimitiveId id,
                                          const std::type_identity_t<T>* time = nullptr) {
-  return PathVertex<T>(
-      ray, [&] { return intersectPrimitive(scene.shapes, id, ray.origin, ray.direction, time); });
+  return PathVertex<T>(ray, [&] {
+    SurfacePoint<T> point = intersectPrimitive(scene.shapes, id, ray.origin, ray.direction, time);
+    if (const FrameMap* map = materialAt(scene, id).frame.get()) [[unlikely]]
+      mapFrame<T>(*map, scene.shapes, id, -ray.direction, point, time);
+    return point;
+  });
 }
 
 // What light is multiplied by that is scattered to the local direction wo, at |cos| cosOut with the
@@ -169,6 +189,16 @@ Rgb<T> asImportance(const Arrival<T>& vertex, const Vec3<T>& wo, const T& cosOut
                     const Rgb<T>& weight) {
   if (vertex.point.flat) return weight;
   return weight * T(abs(vertex.wi.z) * cosOut / (vertex.cosIn * abs(wo.z)));
+}
+
+// SurfacePoint::bendBlocks of a subpath that goes on in the world direction `onwards`.
+template <class T>
+bool bendBlocks(const Arrival<T>& vertex, const Vec3<T>& onwards, Side side) {
+  if (vertex.point.bend == Bend::kNone) [[likely]]
+    return false;
+  const Vec3<T> back = vertex.point.shading.toWorld(vertex.wi);
+  return side == Side::kCamera ? vertex.point.bendBlocks(onwards, back)
+                               : vertex.point.bendBlocks(back, onwards);
 }
 
 // Scattering in the local direction `wo`, drawn with the density that the material has for it, all of
@@ -182,7 +212,7 @@ Scattering<T> scatteringTowards(const Scene& scene, const Arrival<T>& vertex, Pr
   s.direction = vertex.point.shading.toWorld(wo);
   const T cosOut = geometricCosine(vertex.point, wo, s.direction);
   const SampledBsdf<T> e = sampledMaterial<T>(scene.bsdfs, material, uv, vertex.wi, wo);
-  if (!(value(e.pdf) > 0)) {
+  if (!(value(e.pdf) > 0) || bendBlocks(vertex, s.direction, side)) {
     s.factor = Rgb<T>(T(0));
     s.vcm = s.vc = s.reverse = T(0);
     return s;
@@ -208,6 +238,7 @@ Scattering<T> scatteringDelta(const Scene& scene, const Arrival<T>& vertex, Prim
   const T cosOut = geometricCosine(vertex.point, sample.wo, s.direction);
   s.factor = side == Side::kCamera ? sample.radiance
                                    : asImportance(vertex, sample.wo, cosOut, sample.importance);
+  if (bendBlocks(vertex, s.direction, side)) s.factor = Rgb<T>(T(Scalar<T>(0)));
   s.vcm = s.reverse = T(0);
   s.vc = cosOut;
   return s;
@@ -229,7 +260,7 @@ template <class T>
 PathRay<T> onwards(const PathVertex<T>& vertex, const Scattering<T>& s) {
   PathRay<T> ray;
   ray.origin = vertex.point.p;
-  ray.originNormal = value3(vertex.point.ng);
+  if constexpr (std::is_same_v<T, float>) ray.surface = vertex.point.end();
   ray.direction = s.direction;
   ray.throughput = vertex.throughput * s.factor;
   ray.vcm = s.vcm;
@@ -237,21 +268,50 @@ PathRay<T> onwards(const PathVertex<T>& vertex, const Scattering<T>& s) {
   return ray;
 }
 
-// The three steps with what the subpath brings along.
+// Straight on through the surface at `point`, where it is not opaque (LobeId::null), of the ray that has `arrived`
+// there. It stays the line that it was, so that what it meets next loses no digits to a vertex that changes nothing
+// but the throughput; the two cosines, being the same, leave no trace in vc.
+template <class T>
+PathRay<T> passThrough(const Scene& scene, const PathRay<T>& arrived, const SurfacePoint<T>& point,
+                       PrimitiveId id) {
+  PathRay<T> ray;
+  ray.origin = arrived.origin;
+  ray.direction = arrived.direction;
+  ray.throughput = arrived.throughput * passingShare<T>(materialAt(scene, id), point.uv);
+  ray.vcm = T(0);
+  ray.vc = arrived.vc;
+  if constexpr (std::is_same_v<T, float>) ray.surface = point.end();
+  return ray;
+}
+
+// The steps with what the subpath brings along. Duals' null lobes are passThrough's.
 template <class T>
 PathRay<T> scatterTowards(const Scene& scene, const PathVertex<T>& vertex, PrimitiveId id,
                           const Vec3<T>& wo, Side side) {
   return onwards(vertex, scatteringTowards<T>(scene, vertex, id, wo, side));
 }
 template <class T>
-PathRay<T> scatterDelta(const Scene& scene, const PathVertex<T>& vertex, PrimitiveId id,
-                        LobeId lobe, Side side) {
-  return onwards(vertex, scatteringDelta<T>(scene, vertex, id, lobe, side));
-}
-template <class T>
 PathRay<T> scatterFrom(const Scene& scene, const PathVertex<T>& vertex, PrimitiveId id, LobeId lobe,
                        const T& u0, const T& u1, Side side) {
+  if constexpr (!ad::isDual<T>) {
+    if (lobe.null) {
+      PathRay<T> arrived;
+      arrived.origin = vertex.line.origin;
+      arrived.direction = vertex.line.direction;
+      arrived.throughput = vertex.throughput;
+      arrived.vc = vertex.vc * vertex.cosIn;
+      return passThrough(scene, arrived, vertex.point, id);
+    }
+  }
   return onwards(vertex, scatteringFrom<T>(scene, vertex, id, lobe, u0, u1, side));
+}
+
+// A delta lobe at the vertex where the ray has `arrived`.
+template <class T>
+PathRay<T> scatterDelta(const Scene& scene, const PathRay<T>& arrived, const PathVertex<T>& vertex,
+                        PrimitiveId id, LobeId lobe, Side side) {
+  if (lobe.null) return passThrough(scene, arrived, vertex.point, id);
+  return onwards(vertex, scatteringDelta<T>(scene, vertex, id, lobe, side));
 }
 
 }  // namespace h2mc

@@ -1,7 +1,9 @@
+// SPDX-License-Identifier: MIT
 // Shapes that deform: the same triangles in two or more states.
 #include <algorithm>
 #include <cmath>
 
+#include "render/core/index.h"
 #include "render/geometry/mesh_data.h"
 #include "render/scene/element_properties.h"
 #include "render/scene/part_readers.h"
@@ -83,7 +85,7 @@ ShapeGeometry readDeforming(ReaderContext& context, const ElementProperties& pro
   const auto stateAt = [&](double moment) {
     const double place = placeOf(moment);
     const double index = std::min(std::floor(place), last - 1);
-    const auto i = static_cast<std::size_t>(index);
+    const auto i = at(index);
     return between(states[i], states[i + 1], place - index);
   };
   ShapeGeometry result;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/scene/document_edit.h"
 
 #include <fmt/format.h>
@@ -5,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <initializer_list>
 
+#include "render/scene/color_reader.h"
 #include "render/scene/element_properties.h"
 #include "render/scene/suggestion.h"
 #include "render/scene/transform_reader.h"
@@ -15,15 +16,7 @@
 namespace h2mc {
 namespace {
 
-bool isOneOf(std::string_view name, std::initializer_list<std::string_view> names) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 std::string typeOf(const XmlElement& element) { return lowerCase(element.attribute("type")); }
-
-bool isEmitter(const XmlElement& element) {
-  return element.name == "emitter" || element.name == "luminaire";
-}
 
 // Whether a parameter is called so, in any of the spellings that the reader knows.
 bool isCalled(const XmlElement& parameter, std::string_view name) {
@@ -31,23 +24,12 @@ bool isCalled(const XmlElement& parameter, std::string_view name) {
   return !written.empty() && snakeCase(written) == snakeCase(name);
 }
 
-// Element is XmlElement or const XmlElement.
+// The last one of that name, which counts for the reader. Element is XmlElement or const XmlElement.
 template <class Element>
 Element* findParameter(Element& element, std::string_view name) {
-  for (Element& child : element.children)
-    if (isCalled(child, name)) return &child;
-  return nullptr;
-}
-
-XmlElement makeElement(const XmlElement& beside, std::string name,
-                       std::initializer_list<std::pair<std::string_view, std::string>> attributes) {
-  XmlElement made;
-  made.name = std::move(name);
-  made.file = beside.file;
-  made.offset = beside.offset;
-  for (const auto& [key, value] : attributes)
-    made.attributes.push_back({std::string(key), value, beside.offset, beside.offset});
-  return made;
+  const auto found = std::find_if(element.children.rbegin(), element.children.rend(),
+                                  [&](const Element& child) { return isCalled(child, name); });
+  return found == element.children.rend() ? nullptr : &*found;
 }
 
 std::string text(double x) { return fmt::format("{}", x); }
@@ -99,7 +81,7 @@ int edit(SceneDocument& document, const std::function<bool(XmlElement&)>& change
 bool scaleColor(const SceneDocument& document, XmlElement& element, const std::string& name,
                 double factor) {
   XmlElement* const given = findParameter(element, name);
-  if (given && given->name == "texture") {
+  if (given && isTexture(*given)) {
     bool changed = false;
     if (typeOf(*given) == "checkerboard")
       for (const char* color : {"color0", "color1"})
@@ -178,7 +160,7 @@ double largestColor(const SceneDocument& document, const XmlElement& element,
   const XmlElement* const given = findParameter(element, name);
   if (!given) return 1;
   if (isReference(*given)) return INFINITY;
-  if (given->name != "texture") return largest(glm::dvec3(readColor(document, *given)));
+  if (!isTexture(*given)) return largest(glm::dvec3(readColor(document, *given)));
   if (typeOf(*given) != "checkerboard" || !findParameter(*given, "color0") ||
       !findParameter(*given, "color1"))
     return INFINITY;

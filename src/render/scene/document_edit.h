@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Changes to a scene's document before the scene is made of it: another material, another scale,
 // another place. Nothing of what has been built is touched, so the result is a scene as any other.
 //

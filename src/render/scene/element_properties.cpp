@@ -1,22 +1,17 @@
+// SPDX-License-Identifier: MIT
 #include "render/scene/element_properties.h"
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
-#include "render/scene/spectrum.h"
+#include "render/core/index.h"
+#include "render/scene/color_reader.h"
 #include "render/scene/transform_reader.h"
 #include "render/scene/value_text.h"
 
 namespace h2mc {
 namespace {
-
-bool isOneOf(std::string_view name, std::initializer_list<std::string_view> names) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-bool isColorElement(std::string_view name) {
-  return isOneOf(name, {"rgb", "srgb", "spectrum", "blackbody", "float", "integer"});
-}
 
 // Which elements may give a parameter.
 bool accepts(const Parameter& parameter, std::string_view element) {
@@ -112,102 +107,80 @@ bool isParameterElement(const XmlElement& element) {
                   "blackbody", "point", "vector", "transform", "animation"});
 }
 
-bool isReference(const XmlElement& element) {
-  return element.name == "ref" || element.name == "reference";
+bool isTexture(const XmlElement& element) {
+  return element.name == "texture" ||
+         (element.name == "spectrum" && element.find("type") && !isPlainSpectrum(element));
 }
 
-Rgbf readColor(const SceneDocument& document, const XmlElement& element) {
-  std::string_view attribute = "value";
-  try {
-    if (element.name == "blackbody") {
-      element.allowAttributes({"name", "temperature", "scale", "multiplier"});
-      attribute = "temperature";
-      std::string_view text = trimmed(element.require("temperature"));
-      if (!text.empty() && (text.back() == 'K' || text.back() == 'k')) text.remove_suffix(1);
-      const double temperature = parseNumber(text);
-      if (!(temperature > 0)) throw ValueError("a temperature is positive");
-      double scale = 1;
-      for (std::string_view name : {"scale", "multiplier"}) {
-        if (!element.find(name)) continue;
-        attribute = name;
-        scale *= parseNumber(element.attribute(name));
-      }
-      if (scale < 0) throw ValueError("a scale must not be negative");
-      const Rgbf c = blackbodyToRgb(temperature) * static_cast<float>(scale);
-      return c;
-    }
-    if (element.name == "spectrum" && element.find("filename")) {
-      element.allowAttributes({"name", "filename"});
-      attribute = "filename";
-      std::string text, line;
-      // Lines "wavelength value"; # starts a comment.
-      const std::string content = readTextFile(resolveFile(document, element, "filename"));
-      for (std::size_t at = 0; at < content.size();) {
-        const std::size_t end = std::min(content.find('\n', at), content.size());
-        line = content.substr(at, std::min(end, content.find('#', at)) - at);
-        at = end + 1;
-        const auto parts = splitList(line);
-        if (parts.empty()) continue;
-        if (parts.size() != 2)
-          throw ValueError("a line of the spectrum's file is not \"wavelength value\"");
-        text += std::string(parts[0]) + ":" + std::string(parts[1]) + " ";
-      }
-      if (text.empty()) throw ValueError("the spectrum's file is empty");
-      return parseSpectrum(text);
-    }
-    element.allowAttributes({"name", "value", "intent"});
-    const std::string& text = element.require("value");
-    if (element.name == "spectrum") return parseSpectrum(text);
-    if (element.name == "rgb" || element.name == "srgb")
-      return parseRgb(text, element.name == "srgb");
-    const double grey = parseNumber(text);
-    if (grey < 0) throw ValueError("a colour must not be negative");
-    return Rgbf(static_cast<float>(grey));
-  } catch (const ValueError& e) {
-    throw sourceError(element.place(attribute), e.what(),
-                      "expected a colour: value=\"r, g, b\", value=\"grey\", value=\"#rrggbb\" or, "
-                      "in a <spectrum>, value=\"wavelength:value, ...\"");
-  }
+bool isEmitter(const XmlElement& element) {
+  return element.name == "emitter" || element.name == "luminaire";
+}
+
+bool isReference(const XmlElement& element) {
+  return element.name == "ref" || element.name == "reference";
 }
 
 ElementProperties::ElementProperties(ReaderContext& context, const XmlElement& element,
                                      ElementTable table)
     : context_(context), element_(element), table_(std::move(table)) {
-  element.allowAttributes({"type", "id", "name"});
   type_ = lowerCase(element.attribute("type"));
-  for (const XmlElement& child : element.children) {
-    const std::string written = child.attribute("name");
-    const bool listed =
-        std::find(table_.objects.begin(), table_.objects.end(), child.name) != table_.objects.end();
-    if (isReference(child)) {
-      child.allowAttributes({"name", "id"});
-      const XmlElement& target = context.resolve(child);
-      if (target.name == "texture") {
-        readParameter(child);
-      } else if (target.name == "bsdf" && table_.nestedBsdfs > 0) {
-        nested_.push_back(&child);
-      } else if (std::find(table_.objects.begin(), table_.objects.end(), target.name) ==
-                 table_.objects.end()) {
-        throw sourceError(child.place("id"),
-                          "a reference to a " + target.name + " inside " + description());
-      }
-    } else if (isParameterElement(child) || child.name == "texture") {
-      readParameter(child);
-    } else if (child.name == "bsdf" && table_.nestedBsdfs > 0) {
-      nested_.push_back(&child);
-    } else if (!listed) {
-      Names names = {"boolean", "float",  "integer",   "string",  "rgb", "spectrum",
-                     "point",   "vector", "transform", "texture", "ref"};
-      if (table_.nestedBsdfs > 0) names.push_back("bsdf");
-      names.insert(names.end(), table_.objects.begin(), table_.objects.end());
-      throw sourceError(child.place(), "<" + child.name + "> inside " + description(),
-                        "expected an element that belongs here; " + suggestion(child.name, names));
+  // Every child is looked at, so that all mistakes are known; what is made of them is then made of none.
+  std::optional<SceneError> first;
+  const auto attempt = [&](const auto& read) {
+    try {
+      read();
+    } catch (const SceneError& e) {
+      context_.problems.add(e);
+      if (!first) first = e;
     }
-  }
+  };
+  attempt([&] { allowAttributes(element, {"type", "id", "name"}); });
+  for (const XmlElement& child : element.children) attempt([&] { readChild(child); });
   if (nestedBsdfCount() > table_.nestedBsdfs)
-    throw sourceError(nested_[static_cast<std::size_t>(table_.nestedBsdfs)]->place(),
-                      description() + " takes at most " + std::to_string(table_.nestedBsdfs) +
-                          " bsdf" + (table_.nestedBsdfs == 1 ? "" : "s"));
+    attempt([&] {
+      throw sourceError(nested_[at(table_.nestedBsdfs)]->place(),
+                        description() + " takes at most " + std::to_string(table_.nestedBsdfs) +
+                            " bsdf" + (table_.nestedBsdfs == 1 ? "" : "s"));
+    });
+  if (first) throw SceneError(*first);
+}
+
+void ElementProperties::allowAttributes(const XmlElement& element,
+                                        std::initializer_list<std::string_view> names) const {
+  for (const XmlAttribute& a : element.attributes)
+    if (!isOneOf(a.name, names))
+      context_.problems.tolerate({element.file, a.nameOffset},
+                                 "unknown attribute \"" + a.name + "\" of <" + element.name + ">",
+                                 suggestion(a.name, Names(names.begin(), names.end())));
+}
+
+void ElementProperties::readChild(const XmlElement& child) {
+  const auto isObject = [&](const std::string& name) {
+    return std::find(table_.objects.begin(), table_.objects.end(), name) != table_.objects.end();
+  };
+  if (isReference(child)) {
+    allowAttributes(child, {"name", "id"});
+    const XmlElement& target = context_.resolve(child);
+    if (isTexture(target)) {
+      readParameter(child);
+    } else if (target.name == "bsdf" && table_.nestedBsdfs > 0) {
+      nested_.push_back(&child);
+    } else if (!isObject(target.name)) {
+      throw sourceError(child.place("id"),
+                        "a reference to a " + target.name + " inside " + description());
+    }
+  } else if (isParameterElement(child) || child.name == "texture") {
+    readParameter(child);
+  } else if (child.name == "bsdf" && table_.nestedBsdfs > 0) {
+    nested_.push_back(&child);
+  } else if (!isObject(child.name)) {
+    Names names = {"boolean", "float",  "integer",   "string",  "rgb", "spectrum",
+                   "point",   "vector", "transform", "texture", "ref"};
+    if (table_.nestedBsdfs > 0) names.push_back("bsdf");
+    names.insert(names.end(), table_.objects.begin(), table_.objects.end());
+    throw sourceError(child.place(), "<" + child.name + "> inside " + description(),
+                      "expected an element that belongs here; " + suggestion(child.name, names));
+  }
 }
 
 std::string ElementProperties::description() const {
@@ -216,8 +189,8 @@ std::string ElementProperties::description() const {
 
 Names ElementProperties::parameterNames() const {
   // In the file's own spelling: snake_case where its version says so.
-  const std::string version = context_.document.root.attribute("version");
-  const bool snake = !version.empty() && version[0] >= '2' && version[0] <= '9';
+  const XmlElement& root = context_.document.root;
+  const bool snake = root.find("version") && !isOldVersion(root);
   Names names;
   for (const Parameter& p : table_.parameters)
     names.push_back(snake ? snakeCase(p.name) : std::string(p.name));
@@ -230,28 +203,51 @@ const Parameter* ElementProperties::match(std::string_view written) const {
   return nullptr;
 }
 
+const Parameter* ElementProperties::unnamedTexture(const XmlElement& child) const {
+  if (!isTexture(context_.resolve(child))) return nullptr;
+  for (const Parameter& p : table_.parameters)
+    if (p.unnamed) return &p;
+  return nullptr;
+}
+
 void ElementProperties::readParameter(const XmlElement& child) {
-  if (!child.find("name"))
+  const Parameter* const unnamed = unnamedTexture(child);
+  if (!child.find("name") && !unnamed)
     throw sourceError(child.place(),
                       "<" + child.name + "> inside " + description() + " has no name",
                       "expected name=\"...\"; available: " + joined(parameterNames()));
   const std::string written = child.attribute("name");
   const Parameter* parameter = match(written);
+  if (!parameter) parameter = unnamed;
   if (!parameter) {
     if (table_.acceptUnknown) {
       context_.note("accepted and not used: parameter \"" + written + "\" of " + description());
       return;
     }
-    throw sourceError(child.place("name"),
-                      "unknown parameter \"" + written + "\" of " + description(),
-                      "expected a parameter that it has; " + suggestion(written, parameterNames()));
+    const std::string message = "unknown parameter \"" + written + "\" of " + description();
+    const std::string hint =
+        "expected a parameter that it has; " + suggestion(written, parameterNames());
+    // A texture is no leftover: it was meant to be seen.
+    if (isTexture(context_.resolve(child)))
+      context_.problems.refuse(child.place("name"), message, "the texture is not used\n" + hint);
+    else
+      context_.problems.tolerate(child.place("name"), message, hint);
+    return;
   }
-  for (const auto& [other, element] : given_)
-    if (other == parameter)
-      throw sourceError(child.place("name"),
-                        "parameter \"" + written + "\" of " + description() + " is given twice",
-                        "first at " + describe(element->place("name")));
-  if (parameter->ignored) {
+  const auto earlier = std::find_if(given_.begin(), given_.end(),
+                                    [&](const auto& entry) { return entry.first == parameter; });
+  if (earlier != given_.end()) {
+    context_.problems.tolerate(
+        child.place("name"),
+        "parameter \"" + written + "\" of " + description() + " is given twice",
+        "first at " + describe(earlier->second->place("name")) + "; the last one counts");
+    given_.erase(earlier);
+  }
+  if (parameter->ignored && parameter->name == "maxSmoothAngle") {
+    context_.problems.warn(child.place("name"),
+                           "\"maxSmoothAngle\" of " + description() + " is not used",
+                           "the normals are those that the mesh has without it");
+  } else if (parameter->ignored) {
     context_.note("accepted and not used: parameter \"" + std::string(parameter->name) + "\" of " +
                   description());
   } else {
@@ -263,13 +259,14 @@ void ElementProperties::readParameter(const XmlElement& child) {
 void ElementProperties::checkValue(const Parameter& parameter, const XmlElement& child) const {
   const XmlElement& target = context_.resolve(child);
   const auto [what, example] = spelling(parameter);
-  if (!accepts(parameter, target.name))
+  if (!accepts(parameter, isTexture(target) ? "texture" : target.name))
     throw sourceError(child.place(),
                       "parameter \"" + std::string(parameter.name) + "\" of " + description() +
                           " is " + what + ", not a <" + target.name + ">",
                       "expected " + example);
-  if (target.name == "texture") return;
-  if (!child.children.empty() && parameter.type != ParameterType::kTransform)
+  if (isTexture(target)) return;
+  if (!child.children.empty() && !isPlainSpectrum(child) &&
+      parameter.type != ParameterType::kTransform)
     throw sourceError(child.children[0].place(),
                       "<" + child.children[0].name + "> inside <" + child.name + ">");
   try {
@@ -278,7 +275,7 @@ void ElementProperties::checkValue(const Parameter& parameter, const XmlElement&
       case ParameterType::kInteger:
       case ParameterType::kNumber:
       case ParameterType::kString: {
-        child.allowAttributes({"name", "value"});
+        allowAttributes(child, {"name", "value"});
         const std::string& value = child.require("value");
         if (parameter.type == ParameterType::kBoolean) parseBoolean(value);
         if (parameter.type == ParameterType::kInteger) checkedInteger(value);
@@ -287,9 +284,15 @@ void ElementProperties::checkValue(const Parameter& parameter, const XmlElement&
         break;
       }
       case ParameterType::kColor:
-      case ParameterType::kTexture:
-        readColor(context_.document, child);
+      case ParameterType::kTexture: {
+        const Rgbf color = readColor(context_.document, child, parameter.mayBeNegative);
+        if (color.x < 0 || color.y < 0 || color.z < 0)
+          context_.problems.warn(child.place("value"),
+                                 "\"" + std::string(parameter.name) + "\" of " + description() +
+                                     " has a negative channel",
+                                 "only its absolute value counts");
         break;
+      }
       case ParameterType::kPoint:
       case ParameterType::kVector:
         child.allowAttributes({"name", "x", "y", "z", "value"});
@@ -360,15 +363,16 @@ std::string ElementProperties::string(std::string_view name) const {
 
 Rgbf ElementProperties::color(std::string_view name) const {
   if (const XmlElement* child = source(name)) {
-    if (context_.resolve(*child).name == "texture") fail(name, "expected a colour, not a texture");
-    return readColor(context_.document, *child);
+    if (isTexture(context_.resolve(*child))) fail(name, "expected a colour, not a texture");
+    return readColor(context_.document, *child, find(name).mayBeNegative);
   }
-  return parse(name, parseSpectrum);
+  return parse(name, [](const std::string& text) { return parseSpectrum(text); });
 }
 
 TexturePtr ElementProperties::texture(std::string_view name) const {
   const XmlElement* child = source(name);
-  if (child && context_.resolve(*child).name == "texture") return context_.texture(*child);
+  if (child && isTexture(context_.resolve(*child)))
+    return context_.texture(*child, table_.texelsMayBeNegative || find(name).mayBeNegative);
   return constantTexture(color(name));
 }
 
@@ -416,6 +420,25 @@ int ElementProperties::nestedBsdf(int index) const {
 
 const Material& ElementProperties::material(int index) const {
   return context_.scene.materials.at(static_cast<std::size_t>(index));
+}
+
+SourcePlace ElementProperties::placeOf(std::string_view name) const {
+  const XmlElement* const given = source(name);
+  return given ? given->place("value") : element_.place();
+}
+
+void ElementProperties::warn(std::string_view name, const std::string& message) const {
+  context_.problems.warn(placeOf(name), description() + ": " + message);
+}
+
+void ElementProperties::tolerate(std::string_view name, const std::string& message,
+                                 const std::string& hint) const {
+  context_.problems.tolerate(placeOf(name), description() + ": " + message, hint);
+}
+
+void ElementProperties::refuse(std::string_view name, const std::string& message,
+                               const std::string& instead) const {
+  context_.problems.refuse(placeOf(name), description() + ": " + message, instead);
 }
 
 void ElementProperties::fail(std::string_view name, const std::string& message) const {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The parameters of an element of a scene file, checked against a plugin's table.
 #pragma once
 
@@ -19,12 +20,14 @@ struct ElementTable {
   int nestedBsdfs = 0;               // <bsdf> or <ref> to one, without a parameter's name
   std::vector<std::string> objects;  // further elements that the caller reads itself
   bool acceptUnknown = false;        // a parameter the table lacks is noted, not an error
+  bool texelsMayBeNegative = false;  // as Properties has it
 };
 
 class ElementProperties : public Properties {
  public:
   // Checks every child: known, given once, of the right type, with a value that can be read.
-  // Textures, files and nested BSDFs are not made before they are asked for. Throws SceneError.
+  // Textures, files and nested BSDFs are not made before they are asked for. Adds all that is wrong to
+  // the context's problems, and throws the first of it (SceneError).
   ElementProperties(ReaderContext& context, const XmlElement& element, ElementTable table);
 
   bool given(std::string_view name) const override;
@@ -34,12 +37,18 @@ class ElementProperties : public Properties {
   std::string string(std::string_view name) const override;
   Rgbf color(std::string_view name) const override;
   TexturePtr texture(std::string_view name) const override;
+  bool texelsMayBeNegative() const override { return table_.texelsMayBeNegative; }
   Vec3f vector(std::string_view name) const override;
   Mat4 transform(std::string_view name) const override;
   Motion motion(std::string_view name) const override;
   std::string file(std::string_view name) const override;
   int nestedBsdfCount() const override { return static_cast<int>(nested_.size()); }
   int nestedBsdf(int index) const override;
+  void warn(std::string_view name, const std::string& message) const override;
+  void tolerate(std::string_view name, const std::string& message,
+                const std::string& hint) const override;
+  void refuse(std::string_view name, const std::string& message,
+              const std::string& instead) const override;
   const Material& material(int index) const override;
   [[noreturn]] void fail(std::string_view name, const std::string& message) const override;
   [[noreturn]] void fail(std::string_view name, const std::string& message,
@@ -54,10 +63,17 @@ class ElementProperties : public Properties {
   const XmlElement& nestedElement(int index) const { return *nested_[index]; }
   // The element that gave the parameter; null when none did.
   const XmlElement* source(std::string_view name) const;
+  SourcePlace placeOf(std::string_view name) const;  // of its value, or of the element
 
  private:
+  void readChild(const XmlElement& child);
+  // Others are leftovers.
+  void allowAttributes(const XmlElement& element,
+                       std::initializer_list<std::string_view> names) const;
   const Parameter& find(std::string_view name) const;
   const Parameter* match(std::string_view written) const;
+  // The parameter that takes a texture by any name; null where there is none, or no texture.
+  const Parameter* unnamedTexture(const XmlElement& child) const;
   void readParameter(const XmlElement& child);
   void checkValue(const Parameter& parameter, const XmlElement& child) const;
   Names parameterNames() const;
@@ -74,11 +90,12 @@ class ElementProperties : public Properties {
   std::vector<const XmlElement*> nested_;
 };
 
-// The colour that an <rgb>, <srgb>, <spectrum>, <blackbody> or number element gives.
-Rgbf readColor(const SceneDocument& document, const XmlElement& element);
-
 // Whether an element is a parameter by its name: boolean, float, rgb, ...
 bool isParameterElement(const XmlElement& element);
+// Whether it is a <texture>, or Mitsuba 2's way of writing one, a <spectrum> with a type.
+bool isTexture(const XmlElement& element);
+// Whether it is an <emitter>, or a <luminaire> as that was called.
+bool isEmitter(const XmlElement& element);
 // Whether it is a <ref>.
 bool isReference(const XmlElement& element);
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The <integrator> of a scene and dpt's <dpt>, in terms of our integrators' options.
 #include <algorithm>
 #include <charconv>
@@ -9,23 +10,51 @@
 namespace h2mc {
 namespace {
 
-// What Mitsuba calls its integrators; "" where none of ours does the same.
-constexpr std::pair<std::string_view, std::string_view> kMitsuba[] = {
-    {"path", "path"},     {"volpath", "path"},  {"volpath_simple", "path"},
-    {"direct", ""},       {"bdpt", "bdpt"},     {"mlt", ""},
-    {"pssmlt", ""},       {"erpt", ""},         {"ptracer", ""},
-    {"photonmapper", ""}, {"ppm", ""},          {"sppm", ""},
-    {"vpl", ""},          {"ao", ""},           {"adaptive", ""},
-    {"irrcache", ""},     {"multichannel", ""}, {"field", ""},
-    {"aov", ""},          {"prb", ""}};
+// Integrators of other renderers and what stands for them here. One that ours has by the same name is
+// taken by that name, before this table is looked at.
+struct Foreign {
+  std::string_view name;
+  std::string_view ours;     // "": no method of ours is near it, the choice is left open
+  std::string_view warning;  // "": the picture is the same
+};
+constexpr std::string_view kNoMedia = "participating media are not rendered";
+constexpr std::string_view kNearest = "the nearest method that there is";
+constexpr Foreign kForeign[] = {
+    {"direct", "path", ""},  // with kDirectDepth
+    {"volpath", "path", kNoMedia},
+    {"volpath_simple", "path", kNoMedia},
+    {"volpathmis", "path", kNoMedia},
+    {"prb", "path", ""},
+    {"guided_path", "path", kNearest},
+    {"guidedpath", "path", kNearest},
+    {"ptracer", "bdpt", kNearest},
+    {"photonmapper", "bdpt", kNearest},
+    {"ppm", "bdpt", kNearest},
+    {"sppm", "bdpt", kNearest},
+    {"vcm", "bdpt", kNearest},
+    {"upm", "bdpt", kNearest},
+    {"vpl", "bdpt", kNearest},
+    {"pssmlt", "mmlt", kNearest},
+    {"mlt", "mmlt", kNearest},
+    {"erpt", "mmlt", kNearest},
+    {"ao", "", ""},
+    {"field", "", ""},
+    {"depth", "", ""},
+};
 
-// Parameters of Mitsuba's integrators that mean what an option of ours means.
-constexpr std::pair<std::string_view, std::string_view> kShared[] = {{"maxDepth", "maxDepth"},
-                                                                     {"rrDepth", "rrDepth"}};
+// Integrators that do something with the one inside: it stands for them.
+constexpr std::string_view kWrappers[] = {"moment",   "adaptive",     "errctrl", "aov",
+                                          "irrcache", "multichannel", "stokes"};
+
+// Parameters of other renderers' integrators that mean what an option of ours means.
+constexpr std::string_view kShared[] = {"maxDepth", "rrDepth"};
+
+// Paths of direct light: seen directly, and by way of one surface.
+constexpr const char* kDirectDepth = "2";
 
 // Parameters of Mitsuba's path and bdpt that ours have no option for.
-constexpr std::string_view kIgnored[] = {"strictNormals", "hideEmitters", "lightImage",
-                                         "sampleDirect"};
+constexpr std::string_view kIgnored[] = {"strictNormals",  "lightImage", "sampleDirect",
+                                         "samplesPerPass", "blockSize",  "timeout"};
 
 const IntegratorPlugin* find(std::span<const IntegratorPlugin> integrators, std::string_view name) {
   for (const IntegratorPlugin& plugin : integrators)
@@ -74,9 +103,28 @@ bool fits(ParameterType type, const std::string& element) {
   }
 }
 
+// The parameter is one of those, in either spelling, or there is none.
+template <class Names>
+std::string_view among(const Names& names, std::string_view written) {
+  for (const std::string_view name : names)
+    if (matches(written, name)) return name;
+  return "";
+}
+
+// Lamps are not seen by the camera itself: paths of one edge are left out.
+void hideEmitters(ReaderContext& context, const XmlElement& child) {
+  checkValue(child);
+  if (!parseBoolean(child.attribute("value"))) return;
+  context.hidesEmitters = child.place("value");
+  const auto given = context.scene.options.find("minDepth");
+  if (given != context.scene.options.end() && parseInteger(given->second) >= 2) return;
+  setOption(context, "minDepth", "2", child.place("value"));
+}
+
 void readOwnParameter(ReaderContext& context, const IntegratorPlugin& plugin,
                       const XmlElement& child, bool isMitsubas) {
   const std::string& written = child.require("name");
+  if (matches(written, "hideEmitters")) return;  // by readHidden(), when minDepth is known
   for (const Parameter& p : plugin.parameters) {
     if (!matches(written, p.name)) continue;
     if (!fits(p.type, child.name))
@@ -93,24 +141,44 @@ void readOwnParameter(ReaderContext& context, const IntegratorPlugin& plugin,
     setOption(context, p.name, child.attribute("value"), child.place("value"));
     return;
   }
-  if (isMitsubas) {
-    for (std::string_view name : kIgnored) {
-      if (!matches(written, name)) continue;
-      checkValue(child);
-      context.note("accepted and not used: parameter \"" + std::string(name) +
-                   "\" of integrator \"" + std::string(plugin.name) + "\"");
-      return;
-    }
+  if (const std::string_view name = among(kIgnored, written); isMitsubas && !name.empty()) {
+    checkValue(child);
+    context.note("accepted and not used: parameter \"" + std::string(name) + "\" of integrator \"" +
+                 std::string(plugin.name) + "\"");
+    return;
   }
   Names names;
   for (const Parameter& p : plugin.parameters) names.emplace_back(p.name);
-  throw sourceError(
+  context.problems.tolerate(
       child.place("name"),
       "unknown parameter \"" + written + "\" of integrator \"" + std::string(plugin.name) + "\"",
       "expected a parameter that it has; " + suggestion(written, names));
 }
 
-void checkChildren(const XmlElement& element) {
+// What is common to all of them is kept of another renderer's method.
+void readForeignParameters(ReaderContext& context, const XmlElement& element,
+                           const std::string& type) {
+  Names unused;
+  for (const XmlElement& child : element.children) {
+    if (!isParameterElement(child)) continue;
+    const std::string written = child.attribute("name");
+    if (const std::string_view name = among(kShared, written); !name.empty()) {
+      checkValue(child);
+      setOption(context, name, child.attribute("value"), child.place("value"));
+    } else if (!matches(written, "hideEmitters")) {
+      unused.push_back(written);
+    }
+  }
+  if (!unused.empty())
+    context.note("accepted and not used: " + joined(unused) + " of integrator \"" + type + "\"");
+}
+
+void readHidden(ReaderContext& context, const XmlElement& element) {
+  for (const XmlElement& child : element.children)
+    if (matches(child.attribute("name"), "hideEmitters")) hideEmitters(context, child);
+}
+
+void checkChildren(ReaderContext& context, const XmlElement& element) {
   for (std::size_t i = 0; i < element.children.size(); ++i) {
     const XmlElement& child = element.children[i];
     if (!isParameterElement(child))
@@ -120,52 +188,83 @@ void checkChildren(const XmlElement& element) {
     child.allowAttributes({"name", "value"});
     for (std::size_t j = 0; j < i; ++j)
       if (element.children[j].attribute("name") == child.attribute("name"))
-        throw sourceError(child.place("name"),
-                          "parameter \"" + child.attribute("name") + "\" is given twice",
-                          "first at " + describe(element.children[j].place("name")));
+        context.problems.tolerate(
+            child.place("name"), "parameter \"" + child.attribute("name") + "\" is given twice",
+            "first at " + describe(element.children[j].place("name")) + "; the last one counts");
   }
+}
+
+void readOwnIntegrator(ReaderContext& context, const XmlElement& element,
+                       const IntegratorPlugin& plugin, bool isMitsubas) {
+  checkChildren(context, element);
+  context.scene.integrator = OptionSet(plugin);
+  for (const XmlElement& child : element.children) {
+    try {
+      readOwnParameter(context, plugin, child, isMitsubas);
+    } catch (const SceneError& e) {
+      context.problems.add(e);
+    }
+  }
+}
+
+// The integrator inside one that wraps it; null where there is none.
+const XmlElement* wrapped(ReaderContext& context, const XmlElement& element) {
+  for (const XmlElement& child : element.children) {
+    const XmlElement& target = context.resolve(child);
+    if (target.name == "integrator") return &target;
+  }
+  return nullptr;
 }
 
 }  // namespace
 
 void readIntegrator(ReaderContext& context, const XmlElement& element,
                     std::span<const IntegratorPlugin> integrators) {
-  element.allowAttributes({"type", "id", "name"});
-  const std::string type = lowerCase(element.require("type"));
-  const auto mitsuba = std::find_if(std::begin(kMitsuba), std::end(kMitsuba),
-                                    [&](const auto& entry) { return entry.first == type; });
-  const bool isMitsubas = mitsuba != std::end(kMitsuba);
+  constexpr int kDeepest = 8;  // wrappers inside each other, which references could make endless
+  const XmlElement* inner = &element;
+  for (int depth = 0; depth < kDeepest; ++depth) {
+    inner->allowAttributes({"type", "id", "name"});
+    const std::string type = lowerCase(inner->require("type"));
+    if (find(integrators, type) ||
+        std::find(std::begin(kWrappers), std::end(kWrappers), type) == std::end(kWrappers))
+      break;
+    const XmlElement* next = wrapped(context, *inner);
+    if (!next) break;
+    context.note("integrator \"" + type + "\": the one inside it renders");
+    inner = next;
+  }
+
+  const std::string type = lowerCase(inner->require("type"));
+  const auto foreign = std::find_if(std::begin(kForeign), std::end(kForeign),
+                                    [&](const Foreign& entry) { return entry.name == type; });
+  const bool known = foreign != std::end(kForeign);
   const IntegratorPlugin* plugin = find(integrators, type);
-  if (!plugin && isMitsubas && !mitsuba->second.empty())
-    plugin = find(integrators, mitsuba->second);
   if (plugin) {
-    checkChildren(element);
-    context.scene.integrator = OptionSet(*plugin);
-    for (const XmlElement& child : element.children)
-      readOwnParameter(context, *plugin, child, isMitsubas);
+    readOwnIntegrator(context, *inner, *plugin, type == "path" || type == "bdpt");
+    readHidden(context, *inner);
     return;
   }
-  if (!isMitsubas) {
+  if (known) plugin = find(integrators, foreign->ours);
+  if (plugin) {
+    if (!foreign->warning.empty())
+      context.problems.warn(
+          inner->place("type"),
+          "integrator \"" + type + "\" is rendered by \"" + std::string(plugin->name) + "\"",
+          std::string(foreign->warning) + "; -i NAME asks for another");
+    context.scene.integrator = OptionSet(*plugin);
+  } else {
     Names names;
     for (const IntegratorPlugin& p : integrators) names.emplace_back(p.name);
-    for (const auto& [name, ours] : kMitsuba)
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.emplace_back(name);
-    throw sourceError(element.place("type"), "unknown integrator \"" + type + "\"",
-                      "expected an integrator of ours or of Mitsuba's; " + suggestion(type, names));
+    for (const Foreign& entry : kForeign) names.emplace_back(entry.name);
+    context.problems.warn(
+        inner->place("type"),
+        (known ? "there is no integrator \"" : "unknown integrator \"") + type + "\"",
+        "rendered by the one that -i NAME asks for, or else by the default; " +
+            suggestion(type, names));
   }
-  // Another renderer's method: what is common to all is kept.
-  std::string kept;
-  for (const XmlElement& child : element.children) {
-    const std::string written = child.attribute("name");
-    for (const auto& [theirs, ours] : kShared) {
-      if (!matches(written, theirs)) continue;
-      checkValue(child);
-      setOption(context, ours, child.attribute("value"), child.place("value"));
-      kept += (kept.empty() ? " but " : ", ") + std::string(ours);
-    }
-  }
-  context.note("accepted and not used: integrator \"" + type + "\"" +
-               (kept.empty() ? "" : " and its parameters" + kept));
+  readForeignParameters(context, *inner, type);
+  if (type == "direct") setOption(context, "maxDepth", kDirectDepth, inner->place("type"));
+  readHidden(context, *inner);
 }
 
 void readDptBlock(ReaderContext& context, const XmlElement& element,
@@ -199,7 +298,7 @@ void readDptBlock(ReaderContext& context, const XmlElement& element,
                                        {"samplecache", "", "boolean"}};
 
   element.allowAttributes({"id"});
-  checkChildren(element);
+  checkChildren(context, element);
   std::map<std::string, const XmlElement*> given;
   Names names;
   for (const Entry& entry : kEntries) names.emplace_back(entry.name);

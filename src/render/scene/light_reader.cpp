@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+#include "render/core/index.h"
 #include "render/scene/element_properties.h"
 #include "render/scene/part_readers.h"
 
@@ -23,8 +25,7 @@ int addLight(ReaderContext& context, const XmlElement& element, int shape) {
     area->prepare(scene.shapes);
   }
   if (!(std::visit([](const auto& l) { return l.power(SceneBounds()); }, light) > 0)) {
-    const std::string on =
-        shape < 0 ? "" : " on shape \"" + scene.shapes[static_cast<std::size_t>(shape)].name + "\"";
+    const std::string on = shape < 0 ? "" : " on shape \"" + scene.shapes[at(shape)].name + "\"";
     context.note("left out: emitter \"" + std::string(plugin.name) + "\"" + on + " emits nothing");
     return -1;
   }

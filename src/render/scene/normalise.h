@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Scenes whose numbers float can't hold are brought to where it can, in double, before they are made.
 #pragma once
 

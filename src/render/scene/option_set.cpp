@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/scene/option_set.h"
 
 #include <fmt/format.h>

@@ -1,13 +1,14 @@
+// SPDX-License-Identifier: MIT
 // An integrator's options: a table of parameters with the values that the scene or the command line
 // gives them.
 #pragma once
 
 #include <map>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "render/core/user_error.h"
 #include "render/scene/plugin.h"
 
 namespace h2mc {
@@ -19,9 +20,9 @@ struct IntegratorPlugin {
 };
 
 // A value that does not fit its parameter; what() says what was expected and what there is.
-class OptionError : public std::runtime_error {
+class OptionError : public UserError {
  public:
-  using std::runtime_error::runtime_error;
+  using UserError::UserError;
 };
 
 // Values as text, checked against the table when they are set.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The readers of a scene file's parts.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The tables that say which plugins there are and what parameters they take. They read the scene
 // file and print `h2mc list`.
 #pragma once
@@ -31,6 +32,8 @@ struct Parameter {
   std::string_view choices = "";    // for strings: "ggx|beckmann"; "" = anything
   std::string_view otherName = "";  // a further spelling that is not the snake_case one ("int_ior")
   bool ignored = false;             // accepted because other renderers know it; named once
+  bool mayBeNegative = false;       // colours: measured data may dip below 0; textures: numbers
+  bool unnamed = false;             // for textures: the one inside, whatever its name
 };
 
 // What a plugin element may hold besides parameters.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The parameters of one plugin element of a scene file, checked against the plugin's table, each
 // with the place where it was written.
 #pragma once
@@ -9,6 +10,7 @@
 
 #include "render/core/motion.h"
 #include "render/core/types.h"
+#include "render/core/user_error.h"
 #include "render/texture/texture.h"
 
 namespace h2mc {
@@ -17,9 +19,16 @@ struct Material;
 
 // Something is wrong with a scene. what() is the whole message for the user: file, line, column,
 // the line with a caret, what was expected, what there is.
-class SceneError : public std::runtime_error {
+class SceneError : public UserError {
  public:
-  using std::runtime_error::runtime_error;
+  explicit SceneError(const std::string& message, std::string place = "")
+      : UserError(message), place_(std::move(place)) {}
+
+  // "scene.xml:12:7"; "" where none is known.
+  const std::string& place() const { return place_; }
+
+ private:
+  std::string place_;
 };
 
 // Abstract so that tests can make plugins without a file. All getters return the table's default
@@ -35,8 +44,11 @@ class Properties {
   virtual int integer(std::string_view name) const = 0;
   virtual float number(std::string_view name) const = 0;        // finite
   virtual std::string string(std::string_view name) const = 0;  // lower-case if it has choices
-  virtual Rgbf color(std::string_view name) const = 0;          // finite, not negative
+  // Finite, and not negative but where the table says that it may be.
+  virtual Rgbf color(std::string_view name) const = 0;
   virtual TexturePtr texture(std::string_view name) const = 0;
+  // Of a texture: whether it stands for numbers, such as heights, and not for a colour.
+  virtual bool texelsMayBeNegative() const { return false; }
   virtual Vec3f vector(std::string_view name) const = 0;  // points too
   virtual Mat4 transform(
       std::string_view name) const = 0;  // identity by default; fails if it moves
@@ -52,6 +64,19 @@ class Properties {
   virtual int nestedBsdf(int index) const = 0;
   virtual const Material& material(int index) const = 0;
 
+  // Something to know about a parameter that is given: the picture may not be what the author wants.
+  // Nothing where there is nobody to tell.
+  virtual void warn(std::string_view /*name*/, const std::string& /*message*/) const {}
+  // Something wrong with what the parameter names: a warning in old files and if permissive, else an error (fail).
+  virtual void tolerate(std::string_view name, const std::string& message,
+                        const std::string& /*hint*/) const {
+    fail(name, message);
+  }
+  // The same, a warning if permissive alone, and then this happens `instead`.
+  virtual void refuse(std::string_view name, const std::string& message,
+                      const std::string& /*instead*/) const {
+    fail(name, message);
+  }
   // Throws SceneError that points at the parameter (or at the element when it is not given).
   [[noreturn]] virtual void fail(std::string_view name, const std::string& message) const = 0;
 };

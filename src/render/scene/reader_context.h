@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the readers of a scene's parts share.
 #pragma once
 
@@ -5,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "render/scene/problems.h"
 #include "render/scene/scene.h"
 #include "render/scene/scene_document.h"
 
@@ -12,21 +14,25 @@ namespace h2mc {
 
 class ReaderContext {
  public:
-  ReaderContext(const SceneDocument& sceneDocument, Scene& readScene)
-      : document(sceneDocument), scene(readScene) {}
+  ReaderContext(const SceneDocument& sceneDocument, Scene& readScene, Strictness strictness)
+      : document(sceneDocument),
+        scene(readScene),
+        problems(strictness, isOldVersion(sceneDocument.root), readScene.warnings) {}
 
   const SceneDocument& document;
   Scene& scene;
+  Problems problems;
+  SourcePlace hidesEmitters;  // where the scene says that the camera does not see lamps
 
   // Adds a line to the scene's notes, once.
   void note(const std::string& text);
 
   // The element that a <ref> leads to, or the element itself. SceneError for an unknown id.
-  const XmlElement& resolve(const XmlElement& element) const;
+  const XmlElement& resolve(const XmlElement& element);
 
   // The texture, or the index of the material, of an element (or of the element a <ref> leads to):
-  // made when it is first asked for, and once.
-  TexturePtr texture(const XmlElement& element);
+  // made when it is first asked for, and once (a texture that is used as colour and as numbers: twice).
+  TexturePtr texture(const XmlElement& element, bool texelsMayBeNegative);
   int material(const XmlElement& element);
   bool isUsed(const XmlElement& element) const { return used_.count(&element) > 0; }
 
@@ -34,13 +40,12 @@ class ReaderContext {
   int defaultMaterial(float reflectance);
 
  private:
-  int makeMaterial(const XmlElement& element);
-  Material makeTwosided(const XmlElement& element, const BsdfPlugin& plugin);
-  Material makeMask(const XmlElement& element, const BsdfPlugin& plugin);
+  int makeMaterial(const XmlElement& element);  // material_reader.cpp
 
   std::set<std::string> noted_;
   std::set<const XmlElement*> used_, open_;  // open: being made, to find circles of references
-  std::map<const XmlElement*, TexturePtr> textures_;
+  std::map<std::pair<const XmlElement*, bool>, TexturePtr>
+      textures_;  // and whether texels may be negative
   std::map<const XmlElement*, int> materials_;
   std::map<float, int> defaults_;
 };

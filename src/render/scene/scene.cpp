@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/scene/scene.h"
 
 #include <algorithm>
@@ -32,6 +33,15 @@ struct Box {
   void add(const Sphere& sphere) {
     add(glm::dvec3(sphere.center) - glm::dvec3(sphere.radius));
     add(glm::dvec3(sphere.center) + glm::dvec3(sphere.radius));
+  }
+  void add(const MovingCylinder& cylinder) {
+    for (const Cylinder& step : cylinder.steps) add(step);
+  }
+  void add(const Cylinder& cylinder) {
+    for (const glm::dvec3 end : {glm::dvec3(cylinder.start), glm::dvec3(cylinder.end)}) {
+      add(end - glm::dvec3(cylinder.radius));
+      add(end + glm::dvec3(cylinder.radius));
+    }
   }
   void add(const Disk& disk) {
     const glm::dvec3 x(disk.axisX), y(disk.axisY);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A scene as the integrators see it: read, checked, in world space, ready to trace.
 #pragma once
 
@@ -47,6 +48,8 @@ struct Scene {
   glm::dvec3 origin{0};
   double radianceUnit = 1;
   std::vector<std::string> notes;  // accepted and not used, left out because nothing needs it
+  // What is likely a mistake, or not rendered as the scene asks for: whole messages with place and caret.
+  std::vector<std::string> warnings;
 
   // Made by finish():
   bool moving = false;  // the camera or any shape moves while the shutter is open

@@ -1,10 +1,14 @@
+// SPDX-License-Identifier: MIT
 #include "render/scene/scene_document.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <set>
 
+#include "render/scene/old_spellings.h"
 #include "render/scene/suggestion.h"
+#include "render/scene/text_encoding.h"
 
 namespace h2mc {
 namespace {
@@ -31,12 +35,12 @@ class Loader {
     file->name = path;
     file->folder = folderOf(path);
     try {
-      file->text = readTextFile(path);
+      file->text = toUtf8(readTextFile(path));
     } catch (const std::exception& e) {
       if (from.file) throw sourceError(from, "cannot read \"" + path + "\": " + e.what());
       throw SceneError(path + ": error: cannot read the scene: " + e.what());
     }
-    XmlElement root = parseXml(file);
+    XmlElement root = parseXml(file, document_.strays);
     open_.push_back(path);
     process(root);
     open_.pop_back();
@@ -57,33 +61,53 @@ class Loader {
   }
 
  private:
+  // Keeps what is thrown, so that the rest is read too.
+  template <class Read>
+  void attempt(Read read) {
+    try {
+      read();
+    } catch (const SceneError& e) {
+      document_.problems.push_back(e);
+    }
+  }
+
   void process(XmlElement& element) {
-    for (XmlAttribute& attribute : element.attributes) substitute(element, attribute);
+    substitute(element);
     std::vector<XmlElement> kept;
     kept.reserve(element.children.size());
     for (XmlElement& child : element.children) {
       if (child.name == "default") {
-        readDefault(child);
+        attempt([&] { readDefault(child); });
       } else if (child.name == "include") {
-        for (XmlAttribute& attribute : child.attributes) substitute(child, attribute);
-        include(child, kept);
+        substitute(child);
+        const std::size_t before = document_.problems.size();
+        attempt([&] { include(child, kept); });
+        document_.incomplete |= document_.problems.size() > before;
       } else if (child.name == "alias") {
-        for (XmlAttribute& attribute : child.attributes) substitute(child, attribute);
-        child.allowAttributes({"id", "as"});
-        document_.aliases[child.require("as")] = child.require("id");
+        substitute(child);
+        attempt([&] { readAlias(child); });
       } else if (child.name == "path") {
-        for (XmlAttribute& attribute : child.attributes) substitute(child, attribute);
-        child.allowAttributes({"value"});
-        std::string folder = child.require("value");
-        if (!folder.empty() && folder[0] != '/') folder = child.file->folder + folder;
-        if (!folder.empty() && folder.back() != '/') folder += '/';
-        document_.searchFolders.push_back(folder);
+        substitute(child);
+        attempt([&] { readPath(child); });
       } else {
         process(child);
         kept.push_back(std::move(child));
       }
     }
     element.children = std::move(kept);
+  }
+
+  void readAlias(const XmlElement& element) {
+    element.allowAttributes({"id", "as"});
+    document_.aliases[element.require("as")] = element.require("id");
+  }
+
+  void readPath(const XmlElement& element) {
+    element.allowAttributes({"value"});
+    std::string folder = element.require("value");
+    if (!folder.empty() && folder[0] != '/') folder = element.file->folder + folder;
+    if (!folder.empty() && folder.back() != '/') folder += '/';
+    document_.searchFolders.push_back(folder);
   }
 
   void readDefault(XmlElement& element) {
@@ -121,6 +145,15 @@ class Loader {
       std::move(root.children.begin(), root.children.end(), std::back_inserter(siblings));
     } else {
       siblings.push_back(std::move(root));
+    }
+  }
+
+  void substitute(XmlElement& element) {
+    for (XmlAttribute& attribute : element.attributes) {
+      const std::size_t before = document_.problems.size();
+      attempt([&] { substitute(element, attribute); });
+      if (document_.problems.size() > before)
+        document_.spoilt.push_back({element.file, attribute.valueOffset});
     }
   }
 
@@ -162,16 +195,18 @@ class Loader {
   std::size_t included_ = 0;
 };
 
-void collectIds(SceneDocument& document, const XmlElement& element) {
+// The last error met; all ids are known nonetheless, the first of two with the same.
+void collectIds(SceneDocument& document, const XmlElement& element,
+                std::optional<SceneError>& error) {
   if (element.name != "ref" && element.name != "reference") {
     if (const XmlAttribute* id = element.find("id")) {
       const auto [entry, isNew] = document.ids.emplace(id->value, &element);
       if (!isNew)
-        throw sourceError(element.place("id"), "the id \"" + id->value + "\" is given twice",
-                          "first at " + describe(entry->second->place("id")));
+        error = sourceError(element.place("id"), "the id \"" + id->value + "\" is given twice",
+                            "first at " + describe(entry->second->place("id")));
     }
   }
-  for (const XmlElement& child : element.children) collectIds(document, child);
+  for (const XmlElement& child : element.children) collectIds(document, child, error);
 }
 
 }  // namespace
@@ -188,20 +223,37 @@ const XmlElement* SceneDocument::find(std::string_view id) const {
 
 void SceneDocument::indexIds() {
   ids.clear();
-  collectIds(*this, root);
+  std::optional<SceneError> error;
+  collectIds(*this, root, error);
+  if (error) throw SceneError(*error);
+}
+
+bool isOldVersion(const XmlElement& scene) {
+  const std::string version = scene.attribute("version");
+  return version == "0" || version == "1" || version.rfind("0.", 0) == 0 ||
+         version.rfind("1.", 0) == 0;
 }
 
 std::unique_ptr<SceneDocument> loadSceneDocument(
     const std::string& file, const std::map<std::string, std::string>& defines) {
   auto document = std::make_unique<SceneDocument>();
+  document->folder = folderOf(file);
   Loader loader(*document, defines);
   document->root = loader.load(file, {});
   if (document->root.name != "scene")
     throw sourceError(document->root.place(),
                       "the outermost element is <" + document->root.name + ">",
                       "expected <scene version=\"0.6.0\">");
-  loader.checkDefines(file, defines);
-  document->indexIds();
+  const auto attempt = [&](const auto& check) {
+    try {
+      check();
+    } catch (const SceneError& e) {
+      document->problems.push_back(e);
+    }
+  };
+  attempt([&] { loader.checkDefines(file, defines); });
+  attempt([&] { modernise(document->root); });
+  attempt([&] { document->indexIds(); });
   return document;
 }
 
@@ -220,7 +272,7 @@ std::string resolveFile(const SceneDocument& document, const XmlElement& element
   } else {
     candidates.push_back(element.file->folder + name);
     for (const std::string& folder : document.searchFolders) candidates.push_back(folder + name);
-    if (document.root.file) candidates.push_back(document.root.file->folder + name);
+    candidates.push_back(document.folder + name);
   }
   std::error_code code;
   for (const std::string& path : candidates)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A scene file with its includes spliced in, its $names replaced and its ids known.
 #pragma once
 
@@ -14,6 +15,11 @@ struct SceneDocument {
   std::map<std::string, const XmlElement*, std::less<>> ids;  // into root
   std::map<std::string, std::string, std::less<>> aliases;    // another id -> id
   std::vector<std::string> searchFolders;                     // from <path>, "" or ending in /
+  std::string folder;                // of the scene file, "" or ending in /
+  bool incomplete = false;           // an <include> failed, so ids may be missing
+  std::vector<SceneError> problems;  // what was wrong on the way: for the reader to say
+  std::vector<StrayText> strays;     // text that belongs to nothing
+  std::vector<SourcePlace> spoilt;   // attributes whose value is wrong for one of these
 
   // The element with an id; null when there is none.
   const XmlElement* find(std::string_view id) const;
@@ -21,8 +27,11 @@ struct SceneDocument {
   void indexIds();
 };
 
+// Whether a <scene> is of a version below 2, with Mitsuba 0.6's names and customs.
+bool isOldVersion(const XmlElement& scene);
+
 // Reads the file and all it includes. `defines` give $names values that win over <default>.
-// Throws SceneError.
+// Throws SceneError where there is no document at all; what else is wrong is in its problems.
 std::unique_ptr<SceneDocument> loadSceneDocument(const std::string& file,
                                                  const std::map<std::string, std::string>& defines);
 

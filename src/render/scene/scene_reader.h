@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reads a scene file: Mitsuba 0.6 XML, with the snake_case names of Mitsuba 2/3, and dpt's <dpt>.
 #pragma once
 
@@ -5,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "render/scene/problems.h"
 #include "render/scene/properties.h"
 #include "render/scene/scene.h"
 #include "render/scene/scene_document.h"
@@ -17,10 +19,11 @@ struct ReadOptions {
   // The image's size instead of the scene's; one alone keeps the aspect ratio. 0: the scene's.
   int width = 0, height = 0;
   double scale = 0;  // of width and height both; 0: none
+  Strictness strictness = Strictness::kByVersion;
 };
 
 // The scene, finished. Throws SceneError, whose message is complete, for whatever is wrong with the
-// scene; std::runtime_error if Embree fails.
+// scene: everything that could be found out in one reading; std::runtime_error if Embree fails.
 Scene readScene(const std::string& file, const ReadOptions& options);
 
 // The same of a document that has been loaded, and perhaps changed since; the defines are the

@@ -1,4 +1,7 @@
+// SPDX-License-Identifier: MIT
 // The camera, its film and its sampler.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "render/scene/element_properties.h"
@@ -35,10 +38,10 @@ constexpr Entry kSensors[] = {{"perspective", kPerspective}};
 
 constexpr Parameter kFilm[] = {{"width", kInteger, "768", "pixels"},
                                {"height", kInteger, "576", "pixels"},
-                               {"cropOffsetX", kInteger, "0", "must be 0"},
-                               {"cropOffsetY", kInteger, "0", "must be 0"},
-                               {"cropWidth", kInteger, "0", "must be the width"},
-                               {"cropHeight", kInteger, "0", "must be the height"},
+                               {"cropOffsetX", kInteger, "0", "left edge of the part rendered"},
+                               {"cropOffsetY", kInteger, "0", "upper edge of the part rendered"},
+                               {"cropWidth", kInteger, "0", "of the part rendered; the width"},
+                               {"cropHeight", kInteger, "0", "of the part rendered; the height"},
                                ignoredParameter("banner", kBoolean),
                                ignoredParameter("fileFormat", kString),
                                ignoredParameter("pixelFormat", kString),
@@ -51,16 +54,21 @@ constexpr Parameter kFilm[] = {{"width", kInteger, "768", "pixels"},
                                ignoredParameter("key", kNumber),
                                ignoredParameter("burn", kNumber),
                                ignoredParameter("tonemapMethod", kString),
-                               ignoredParameter("sampleBorder", kBoolean)};
-constexpr Entry kFilms[] = {{"hdrfilm", kFilm}, {"ldrfilm", kFilm}};
+                               ignoredParameter("sampleBorder", kBoolean),
+                               ignoredParameter("compensate", kBoolean)};
+constexpr Entry kFilms[] = {
+    {"hdrfilm", kFilm}, {"ldrfilm", kFilm}, {"mfilm", kFilm}, {"tiledhdrfilm", kFilm}};
 
-constexpr Parameter kBox[] = {{"radius", kNumber, "0.5", "pixels"}};
-constexpr Parameter kTent[] = {{"radius", kNumber, "1", "pixels"}};
-constexpr Parameter kGaussian[] = {{"stddev", kNumber, "0.5", "pixels"}};
-constexpr Parameter kMitchell[] = {{"B", kNumber, "0.33333333", ""},
-                                   {"C", kNumber, "0.33333333", ""}};
-constexpr Entry kFilters[] = {
-    {"box", kBox}, {"tent", kTent}, {"gaussian", kGaussian}, {"mitchell", kMitchell}};
+constexpr Parameter kBox[] = {{"radius", kNumber, "0.5", "pixels, 0.5 to 32"}};
+constexpr Parameter kTent[] = {{"radius", kNumber, "1", "pixels, 0.5 to 32"}};
+constexpr Parameter kGaussian[] = {{"stddev", kNumber, "0.5", "pixels, 0.125 to 8"}};
+constexpr Parameter kMitchell[] = {{"B", kNumber, "0.33333333", "0 to 1"},
+                                   {"C", kNumber, "0.33333333", "0 to 1"}};
+constexpr Entry kFilters[] = {{"box", kBox},
+                              {"tent", kTent},
+                              {"gaussian", kGaussian},
+                              {"mitchell", kMitchell},
+                              {"catmullrom", {}}};
 
 constexpr Parameter kSampler[] = {
     {"sampleCount", kInteger, "0", "samples a pixel where the command line gives no budget"}};
@@ -71,37 +79,42 @@ float positive(const Properties& p, std::string_view name) {
   return value;
 }
 
+float inRange(const Properties& p, std::string_view name, float low, float high) {
+  const float value = p.number(name);
+  if (!(value >= low && value <= high))
+    p.fail(name, fmt::format("\"{}\" must be from {} to {}", name, low, high));
+  return value;
+}
+
 Filter readFilter(ReaderContext& context, const XmlElement& element) {
   const Entry& entry = findPlugin(kFilters, element, "reconstruction filter");
   const ElementProperties p(context, element, {"rfilter", entry.parameters, 0, {}, false});
   Filter filter;
   if (entry.name == "box") {
     filter.kind = Filter::Kind::kBox;
-    filter.radius = positive(p, "radius");
+    filter.radius = inRange(p, "radius", Filter::kNarrowest, Filter::kWidest);
   } else if (entry.name == "tent") {
     filter.kind = Filter::Kind::kTent;
-    filter.radius = positive(p, "radius");
+    filter.radius = inRange(p, "radius", Filter::kNarrowest, Filter::kWidest);
   } else if (entry.name == "gaussian") {
     filter.kind = Filter::Kind::kGaussian;
-    filter.stddev = positive(p, "stddev");
-    filter.radius = 4 * filter.stddev;
+    filter.stddev = inRange(p, "stddev", Filter::kNarrowest / Filter::kDeviations,
+                            Filter::kWidest / Filter::kDeviations);
+    filter.radius = Filter::kDeviations * filter.stddev;
   } else {
     filter.kind = Filter::Kind::kMitchell;
     filter.radius = 2;
-    filter.b = p.number("B");
-    filter.c = p.number("C");
+    const bool spline = entry.name == "catmullrom";
+    filter.b = spline ? 0.f : inRange(p, "B", 0, 1);
+    filter.c = spline ? 0.5f : inRange(p, "C", 0, 1);
   }
-  constexpr float kWidest = 32;
-  if (filter.radius > kWidest)
-    throw sourceError(element.place(), "the filter is wider than " +
-                                           std::to_string(static_cast<int>(kWidest)) + " pixels");
   return filter;
 }
 
 Filter defaultFilter() {
   Filter filter;
   filter.kind = Filter::Kind::kGaussian;
-  filter.radius = 4 * filter.stddev;
+  filter.radius = Filter::kDeviations * filter.stddev;
   return filter;
 }
 
@@ -134,8 +147,31 @@ void resize(FilmSettings& film, const ReadOptions& options, const ElementPropert
   film.height = static_cast<int>(height);
 }
 
-FilmSettings readFilm(ReaderContext& context, const XmlElement& element,
-                      const ReadOptions& options) {
+// The part of the film that is rendered, by its corners in the coordinates of the whole.
+struct Window {
+  double left = 0, top = 0, right = 1, bottom = 1;
+};
+
+// The window that the film's crop parameters give; the film becomes the window.
+Window readWindow(const ElementProperties& p, FilmSettings& film) {
+  const int width = film.width, height = film.height;
+  const int x = p.integer("cropOffsetX"), y = p.integer("cropOffsetY");
+  film.width = p.given("cropWidth") ? p.integer("cropWidth") : width;
+  film.height = p.given("cropHeight") ? p.integer("cropHeight") : height;
+  const auto check = [&](const char* offset, const char* size, int first, int count, int all) {
+    if (first >= 0 && count > 0 && first <= all - count) return;
+    p.fail(p.given(size) ? size : offset,
+           fmt::format("the part rendered, {} pixels from {} on, is not within the film's {}",
+                       count, first, all));
+  };
+  check("cropOffsetX", "cropWidth", x, film.width, width);
+  check("cropOffsetY", "cropHeight", y, film.height, height);
+  return {double(x) / width, double(y) / height, double(x + film.width) / width,
+          double(y + film.height) / height};
+}
+
+FilmSettings readFilm(ReaderContext& context, const XmlElement& element, const ReadOptions& options,
+                      Window& window) {
   const Entry& entry = findPlugin(kFilms, element, "film");
   // Labels and metadata may have any names, "label[10, 10]".
   XmlElement copy = element;
@@ -151,20 +187,16 @@ FilmSettings readFilm(ReaderContext& context, const XmlElement& element,
   film.height = p.integer("height");
   for (std::string_view name : {"width", "height"})
     if (p.integer(name) < 1) p.fail(name, "\"" + std::string(name) + "\" must be positive");
-  if (p.integer("cropOffsetX") != 0) p.fail("cropOffsetX", "cropping is not supported");
-  if (p.integer("cropOffsetY") != 0) p.fail("cropOffsetY", "cropping is not supported");
-  if (p.given("cropWidth") && p.integer("cropWidth") != film.width)
-    p.fail("cropWidth", "cropping is not supported");
-  if (p.given("cropHeight") && p.integer("cropHeight") != film.height)
-    p.fail("cropHeight", "cropping is not supported");
+  window = readWindow(p, film);
   resize(film, options, &p);
   film.filter = defaultFilter();
   const XmlElement* filter = nullptr;
   for (const XmlElement& child : copy.children) {
-    if (child.name != "rfilter") continue;
+    const XmlElement& target = context.resolve(child);
+    if (target.name != "rfilter") continue;
     if (filter) throw sourceError(child.place(), "a second filter");
-    filter = &child;
-    film.filter = readFilter(context, child);
+    filter = &target;
+    film.filter = readFilter(context, target);
   }
   return film;
 }
@@ -198,11 +230,14 @@ void readSensor(ReaderContext& context, const XmlElement& element, const ReadOpt
   Scene& scene = context.scene;
   const Entry& entry = findPlugin(kSensors, element, "sensor");
   const ElementProperties p(context, element,
-                            {"sensor", entry.parameters, 0, {"film", "sampler"}, false});
+                            {"sensor", entry.parameters, 0, {"film", "sampler", "medium"}, false});
   const XmlElement* film = nullptr;
   const XmlElement* sampler = nullptr;
   for (const XmlElement& child : element.children) {
     const XmlElement& target = context.resolve(child);
+    if (target.name == "medium")
+      context.problems.refuse(child.place(), "participating media are not supported",
+                              "the camera is in empty space");
     const XmlElement** slot = target.name == "film"      ? &film
                               : target.name == "sampler" ? &sampler
                                                          : nullptr;
@@ -210,8 +245,9 @@ void readSensor(ReaderContext& context, const XmlElement& element, const ReadOpt
     if (*slot) throw sourceError(child.place(), "a second " + target.name + " of the sensor");
     *slot = &target;
   }
+  Window window;
   if (film) {
-    scene.film = readFilm(context, *film, options);
+    scene.film = readFilm(context, *film, options, window);
   } else {
     scene.film.filter = defaultFilter();
     resize(scene.film, options, nullptr);
@@ -236,13 +272,18 @@ void readSensor(ReaderContext& context, const XmlElement& element, const ReadOpt
   }
   for (std::string_view name : {"principalPointOffsetX", "principalPointOffsetY"})
     if (p.number(name) != 0) p.fail(name, "a shifted principal point is not supported");
-  const float aspect = static_cast<float>(scene.film.width) / static_cast<float>(scene.film.height);
+  // Of the whole film: fov is for that.
+  const float part = static_cast<float>(scene.film.width) / static_cast<float>(scene.film.height);
+  const double windowX = window.right - window.left, windowY = window.bottom - window.top;
+  const float aspect = static_cast<float>(part * windowY / windowX);
   const float shutterOpen = p.number("shutterOpen"), shutterClose = p.number("shutterClose");
   if (shutterClose < shutterOpen) p.fail("shutterClose", "the shutter closes before it opens");
   scene.camera.shutterOpen = shutterOpen;  // what motion() goes by
   scene.camera.shutterClose = shutterClose;
   const Motion motion = p.motion("toWorld");
   scene.camera = Camera(Mat4(motion.at(0)), fov, axis, aspect);
+  if (windowX < 1 || windowY < 1)
+    scene.camera.crop(window.left, window.top, window.right, window.bottom);
   scene.camera.follow(motion);
   scene.camera.shutterOpen = shutterOpen;
   scene.camera.shutterClose = shutterClose;

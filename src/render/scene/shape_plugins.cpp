@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/scene/shape_plugins.h"
 
 #include <cmath>
@@ -46,6 +47,13 @@ constexpr Parameter kDeforming[] = {
     {"endTime", kNumber, "", "when it has the last one's; the shutter's closing"}};
 constexpr Parameter kSphereParameters[] = {
     {"center", kPoint, "0, 0, 0", "the middle, in object space"},
+    {"radius", kNumber, "1", "in object space"},
+    {"toWorld", kTransform, "", "from object to world space; scales alike in all directions"},
+    kFlipNormals};
+
+constexpr Parameter kCylinderParameters[] = {
+    {"p0", kPoint, "0, 0, 0", "the centre of its first end, in object space"},
+    {"p1", kPoint, "0, 0, 1", "that of the other end"},
     {"radius", kNumber, "1", "in object space"},
     {"toWorld", kTransform, "", "from object to world space; scales alike in all directions"},
     kFlipNormals};
@@ -135,18 +143,23 @@ ShapeGeometry createRectangle(const Properties& p) {
 
 ShapeGeometry createCube(const Properties& p) { return finished(p, makeCube(), MeshOptions()); }
 
-Sphere makeSphere(const Properties& p, const Mat4& matrix) {
-  const glm::dmat4 toWorld(matrix);
-  const glm::dmat3 linear(toWorld);
+// The one scale of a transform's linear part; fails where there are several. `made`: what it would make.
+double uniformScale(const Properties& p, const glm::dmat3& linear, const std::string& made) {
   const double scale = glm::length(linear[0]);
   for (int i = 0; i < 3; ++i) {
     const double length = glm::length(linear[i]);
     const double skew = glm::dot(linear[i], linear[(i + 1) % 3]);
     if (std::fabs(length - scale) > 1e-4 * scale || std::fabs(skew) > 1e-4 * scale * scale)
-      p.fail("toWorld",
-             "the transformation makes an ellipsoid of the sphere: only the same scale in all "
-             "directions is supported");
+      p.fail("toWorld", "the transformation makes " + made +
+                            ": only the same scale in all directions is supported");
   }
+  return scale;
+}
+
+Sphere makeSphere(const Properties& p, const Mat4& matrix) {
+  const glm::dmat4 toWorld(matrix);
+  const glm::dmat3 linear(toWorld);
+  const double scale = uniformScale(p, linear, "an ellipsoid of the sphere");
   const double radius = static_cast<double>(p.number("radius")) * scale;
   if (!(radius > 0) || !std::isfinite(static_cast<float>(radius)))
     p.fail("radius", "the radius of a sphere must be positive");
@@ -191,7 +204,59 @@ ShapeGeometry createDisk(const Properties& p) {
   return result;
 }
 
+// Across `a`: where Mitsuba 0.6 has its cylinders' azimuth 0, before they are transformed.
+glm::dvec3 azimuthOrigin(const glm::dvec3& a) {
+  const glm::dvec3 t = std::abs(a.x) > std::abs(a.y)
+                           ? glm::dvec3(a.z, 0, -a.x) / std::sqrt(a.x * a.x + a.z * a.z)
+                           : glm::dvec3(0, a.z, -a.y) / std::sqrt(a.y * a.y + a.z * a.z);
+  return glm::cross(t, a);
+}
+
+Cylinder makeCylinder(const Properties& p, const Mat4& matrix) {
+  const glm::dmat4 toWorld(matrix);
+  const glm::dmat3 linear(toWorld);
+  const double scale = uniformScale(p, linear, "a cylinder that is not round");
+  const double radius = static_cast<double>(p.number("radius")) * scale;
+  if (!(radius > 0) || !std::isfinite(static_cast<float>(radius)))
+    p.fail("radius", "the radius of a cylinder must be positive");
+  const glm::dvec3 start(p.vector("p0")), way = glm::dvec3(p.vector("p1")) - start;
+  const double length = std::sqrt(glm::dot(way, way));
+  if (!(length > 0)) p.fail("p1", "the ends of a cylinder must not be one point");
+  Cylinder c;
+  c.start = Vec3f(glm::dvec3(toWorld * glm::dvec4(start, 1)));
+  c.end = Vec3f(glm::dvec3(toWorld * glm::dvec4(start + way, 1)));
+  c.radius = static_cast<float>(radius);
+  c.axisX = Vec3f(linear * azimuthOrigin(way / length) / scale);
+  c.flipNormals = p.boolean("flipNormals");
+  return c;
+}
+
+ShapeGeometry createCylinder(const Properties& p) {
+  const Motion motion = p.motion("toWorld");
+  if (!motion.moves()) return {makeCylinder(p, Mat4(motion.at(0)))};
+  ShapeGeometry result;
+  const glm::dvec3 a(p.vector("p0")), b(p.vector("p1"));
+  const glm::dvec3 radius(static_cast<double>(p.number("radius")));
+  MovingCylinder moving;
+  for (const Mat4& m :
+       motionSteps(motion, glm::min(a, b) - radius, glm::max(a, b) + radius, result.motionError))
+    moving.steps.push_back(makeCylinder(p, m));
+  result.geometry = std::move(moving);
+  return result;
+}
+
 }  // namespace
+
+std::vector<ShapePart> readObjParts(const Properties& p) {
+  const bool flip = p.boolean("flipTexCoords");
+  const MeshData whole = loaded(p, [&](const std::string& path) { return loadObj(path, flip); });
+  std::vector<ShapePart> parts;
+  for (MeshData& part : splitByMaterial(whole)) {
+    const std::string name = part.materialNames.empty() ? "" : part.materialNames.front();
+    parts.push_back({name, finished(p, std::move(part), false)});
+  }
+  return parts;
+}
 
 std::span<const Plugin<ShapeGeometry>> shapePlugins() {
   static constexpr Plugin<ShapeGeometry> kPlugins[] = {
@@ -202,6 +267,7 @@ std::span<const Plugin<ShapeGeometry>> shapePlugins() {
       {"cube", "the cube [-1, 1]^3", kFlat, createCube},
       {"sphere", "a sphere", kSphereParameters, createSphere},
       {"disk", "the unit disk in z = 0, its normal along +z", kFlat, createDisk},
+      {"cylinder", "an open cylinder, its normals outwards", kCylinderParameters, createCylinder},
       {"deforming", "two or more nested meshes of the same triangles, taken in turn at equal times",
        kDeforming, nullptr},
   };

@@ -1,4 +1,7 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <iomanip>
+#include <map>
 #include <sstream>
 
 #include "render/scene/element_properties.h"
@@ -8,8 +11,44 @@
 namespace h2mc {
 namespace {
 
-bool isEmitter(const XmlElement& element) {
-  return element.name == "emitter" || element.name == "luminaire";
+bool isMedium(const XmlElement& element) {
+  return element.name == "medium" || element.name == "subsurface";
+}
+
+// What is in a shape besides its parameters and its BSDF.
+struct Parts {
+  const XmlElement* emitter = nullptr;
+  bool hasMedium = false;
+  bool failed = false;  // something is wrong, which is among the problems
+};
+
+Parts partsOf(ReaderContext& context, const XmlElement& element) {
+  Parts parts;
+  const auto read = [&](const XmlElement& child) {
+    if (child.name == "sensor")
+      throw sourceError(child.place(), "sensors on shapes are not supported");
+    const XmlElement& target = context.resolve(child);
+    if (isMedium(target)) {
+      parts.hasMedium = true;
+      context.problems.refuse(child.place(),
+                              "participating media and subsurface scattering are not supported",
+                              "the shape is rendered as if it were empty");
+    }
+    if (!isEmitter(target)) return;
+    if (parts.emitter)
+      throw sourceError(child.place(), "a second emitter on a shape",
+                        "first at " + describe(parts.emitter->place()));
+    parts.emitter = &target;
+  };
+  for (const XmlElement& child : element.children) {
+    try {
+      read(child);
+    } catch (const SceneError& e) {
+      context.problems.add(e);
+      parts.failed = true;
+    }
+  }
+  return parts;
 }
 
 [[noreturn]] void unsupported(const XmlElement& element, const std::string& what) {
@@ -19,44 +58,9 @@ bool isEmitter(const XmlElement& element) {
                     "expected a shape of its own; available: " + joined(names));
 }
 
-}  // namespace
-
-void readShape(ReaderContext& context, const XmlElement& element) {
+// Puts a shape, which has its name and material, into the scene.
+void addShape(ReaderContext& context, const Parts& parts, Shape shape, ShapeGeometry made) {
   Scene& scene = context.scene;
-  const std::string type = lowerCase(element.require("type"));
-  if (type == "shapegroup" || type == "instance")
-    unsupported(element, "shape groups and instances");
-  if (type == "hair") unsupported(element, "hair fibres");
-  const auto& plugin = findPlugin(shapePlugins(), element, "shape");
-
-  const XmlElement* emitter = nullptr;
-  for (const XmlElement& child : element.children) {
-    if (child.name == "medium" || child.name == "subsurface")
-      throw sourceError(child.place(),
-                        "participating media and subsurface scattering are not supported");
-    if (child.name == "sensor")
-      throw sourceError(child.place(), "sensors on shapes are not supported");
-    const XmlElement& target = context.resolve(child);
-    if (!isEmitter(target)) continue;
-    if (emitter)
-      throw sourceError(child.place(), "a second emitter on a shape",
-                        "first at " + describe(emitter->place()));
-    emitter = &target;
-  }
-
-  std::vector<std::string> objects = {"emitter", "luminaire"};
-  if (!plugin.create) objects.emplace_back("shape");
-  const ElementProperties properties(context, element,
-                                     {"shape", plugin.parameters, 1, objects, false});
-  ShapeGeometry made =
-      plugin.create ? createLocated(properties, plugin.create) : readDeforming(context, properties);
-  Shape shape;
-  shape.name = element.attribute("id");
-  if (shape.name.empty()) {
-    shape.name = std::string(plugin.name);
-    for (const Parameter& p : plugin.parameters)
-      if (p.name == "filename") shape.name += " " + properties.string("filename");
-  }
   if (made.dropped > 0)
     context.note("left out: " + std::to_string(made.dropped) +
                  (made.dropped == 1 ? " triangle" : " triangles") + " without area of shape \"" +
@@ -71,17 +75,114 @@ void readShape(ReaderContext& context, const XmlElement& element) {
   const auto* still = std::get_if<TriangleMesh>(&made.geometry);
   const auto* moving = std::get_if<MovingMesh>(&made.geometry);
   if ((still && still->triangles.empty()) || (moving && moving->triangles.empty())) {
-    context.note("left out: shape \"" + shape.name + "\" has no area");
+    context.note("left out: shape \"" + shape.name + "\" has no area" +
+                 (parts.emitter ? ", so its emitter emits nothing" : ""));
     return;
   }
   shape.geometry = std::move(made.geometry);
+  scene.shapes.push_back(std::move(shape));
+  if (parts.emitter)
+    scene.shapes.back().light =
+        addLight(context, *parts.emitter, static_cast<int>(scene.shapes.size()) - 1);
+}
+
+constexpr int kMostBsdfs = 1 << 20;  // of one mesh, by names
+
+bool isBsdf(ReaderContext& context, const XmlElement& child) {
+  return child.name == "bsdf" || (isReference(child) && context.resolve(child).name == "bsdf");
+}
+
+// Whether the shape has several BSDFs, or one with a name, for the mesh file's materials.
+bool namesBsdfs(ReaderContext& context, const XmlElement& element) {
+  int count = 0;
+  bool named = false;
+  for (const XmlElement& child : element.children) {
+    if (!isBsdf(context, child)) continue;
+    ++count;
+    named = named || child.find("name");
+  }
+  return count > 1 || named;
+}
+
+// Which of a shape's BSDFs the parts of its mesh have: the one of the material's name, else the one without
+// a name. A single one is everything's, if no material has its name.
+class NamedBsdfs {
+ public:
+  NamedBsdfs(ReaderContext& context, const ElementProperties& properties,
+             const std::vector<ShapePart>& parts)
+      : context_(context) {
+    const int count = properties.nestedBsdfCount();
+    for (int i = 0; i < count; ++i) {
+      const XmlElement& child = properties.nestedElement(i);
+      const std::string name = child.attribute("name");
+      const auto uses = [&](const ShapePart& part) { return part.material == name; };
+      const bool used = std::any_of(parts.begin(), parts.end(), uses);
+      if (name.empty() || (count == 1 && !used)) {
+        nameless_ = properties.nestedBsdf(i);
+      } else if (used) {
+        byName_[name] = properties.nestedBsdf(i);
+      } else {
+        context.problems.warn(child.place("name"),
+                              "no material of the mesh is called \"" + name + "\"",
+                              "the bsdf is not used");
+      }
+    }
+  }
+
+  int materialOf(const std::string& name, bool emits) const {
+    if (const auto found = byName_.find(name); found != byName_.end()) return found->second;
+    return nameless_ >= 0 ? nameless_ : context_.defaultMaterial(emits ? 0.f : 0.5f);
+  }
+
+ private:
+  ReaderContext& context_;
+  std::map<std::string, int> byName_;
+  int nameless_ = -1;
+};
+
+}  // namespace
+
+void readShape(ReaderContext& context, const XmlElement& element) {
+  const std::string type = lowerCase(element.require("type"));
+  if (type == "shapegroup" || type == "instance")
+    unsupported(element, "shape groups and instances");
+  if (type == "hair") unsupported(element, "hair fibres");
+  const auto& plugin = findPlugin(shapePlugins(), element, "shape");
+
+  std::vector<std::string> objects = {"emitter", "luminaire", "medium", "subsurface", "sensor"};
+  if (!plugin.create) objects.emplace_back("shape");
+  const Parts parts = partsOf(context, element);
+  const XmlElement* const emitter = parts.emitter;
+  const bool byName = plugin.name == "obj" && namesBsdfs(context, element);
+  const ElementProperties properties(
+      context, element, {"shape", plugin.parameters, byName ? kMostBsdfs : 1, objects, false});
+  if (parts.failed) return;
+  Shape shape;
+  shape.name = element.attribute("id");
+  if (shape.name.empty()) {
+    shape.name = std::string(plugin.name);
+    for (const Parameter& p : plugin.parameters)
+      if (p.name == "filename") shape.name += " " + properties.string("filename");
+  }
+  if (byName) {
+    auto made = createLocated(properties, readObjParts);
+    const NamedBsdfs bsdfs(context, properties, made);
+    for (ShapePart& part : made) {
+      Shape one = shape;
+      if (!part.material.empty()) one.name += " " + part.material;
+      one.material = bsdfs.materialOf(part.material, parts.emitter != nullptr);
+      addShape(context, parts, std::move(one), std::move(part.shape));
+    }
+    return;
+  }
+  ShapeGeometry made =
+      plugin.create ? createLocated(properties, plugin.create) : readDeforming(context, properties);
+  if (parts.hasMedium && !emitter && properties.nestedBsdfCount() == 0)
+    return;  // a border of nothing
   // As Mitsuba 0.6: a shape that names no BSDF is grey, a light that names none is black.
   shape.material = properties.nestedBsdfCount() > 0 ? properties.nestedBsdf(0)
                                                     : context.defaultMaterial(emitter ? 0.f : 0.5f);
-  scene.shapes.push_back(std::move(shape));
-  if (emitter)
-    scene.shapes.back().light =
-        addLight(context, *emitter, static_cast<int>(scene.shapes.size()) - 1);
+  addShape(context, parts, std::move(shape), std::move(made));
 }
 
 }  // namespace h2mc

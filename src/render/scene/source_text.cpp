@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/scene/source_text.h"
 
 #include <algorithm>
@@ -58,15 +59,20 @@ std::string describe(const SourcePlace& place) {
   return place.file->name + ":" + std::to_string(p.line) + ":" + std::to_string(p.column);
 }
 
-SceneError sourceError(const SourcePlace& place, const std::string& message,
-                       const std::string& hint) {
-  std::string result = describe(place) + ": error: " + message;
+std::string sourceMessage(const SourcePlace& place, const std::string& kind,
+                          const std::string& message, const std::string& hint) {
+  std::string result = describe(place) + ": " + kind + ": " + message;
   if (place.file && !place.file->text.empty()) {
     const Position p = locate(place.file->text, place.offset);
     result += "\n" + excerpt(place.file->text, place.offset, p);
   }
   if (!hint.empty()) result += "\n" + hint;
-  return SceneError(result);
+  return result;
+}
+
+SceneError sourceError(const SourcePlace& place, const std::string& message,
+                       const std::string& hint) {
+  return SceneError(sourceMessage(place, "error", message, hint), describe(place));
 }
 
 std::string readTextFile(const std::string& path) {

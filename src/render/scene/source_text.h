@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The text of a scene file and places in it, for messages that show where a mistake is.
 #pragma once
 
@@ -21,8 +22,10 @@ struct SourcePlace {
   std::size_t offset = 0;
 };
 
-// "scene.xml:12:7: error: MESSAGE", the line, a caret below the place, then the hint (what was
-// expected, what there is) unless it is empty.
+// "scene.xml:12:7: KIND: MESSAGE", the line, a caret below the place, then the hint (what was
+// expected, what there is) unless it is empty. KIND is "error" or "warning".
+std::string sourceMessage(const SourcePlace& place, const std::string& kind,
+                          const std::string& message, const std::string& hint = "");
 SceneError sourceError(const SourcePlace& place, const std::string& message,
                        const std::string& hint = "");
 

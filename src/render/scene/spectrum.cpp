@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/scene/spectrum.h"
 
 #include <algorithm>

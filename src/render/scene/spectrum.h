@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Spectra as linear Rec. 709 RGB.
 #pragma once
 

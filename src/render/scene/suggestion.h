@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Helps who mistyped a name: the closest names there are, and the list of them.
 #pragma once
 

@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: MIT
 #include "render/scene/transform_reader.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "render/core/index.h"
 #include "render/scene/suggestion.h"
 #include "render/scene/value_text.h"
 
@@ -61,8 +63,7 @@ glm::dmat4 readMatrix(const XmlElement& element) {
   const int n = v.size() == 16 ? 4 : 3;
   glm::dmat4 m(1);
   for (int row = 0; row < n; ++row)
-    for (int column = 0; column < n; ++column)
-      m[column][row] = v[static_cast<std::size_t>(row * n + column)];
+    for (int column = 0; column < n; ++column) m[column][row] = v[at(row * n + column)];
   if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] == 0)
     throw sourceError(element.place("value"), "the matrix is not affine",
                       "expected 0 0 0 1 in its last row");

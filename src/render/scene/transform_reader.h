@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Transforms of a scene file: lookat, matrix, scale, rotate, translate in the order they are
 // written.
 #pragma once

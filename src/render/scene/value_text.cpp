@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/scene/value_text.h"
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include <limits>
 
 #include "render/scene/spectrum.h"
+#include "render/scene/suggestion.h"
 
 namespace h2mc {
 namespace {
@@ -22,14 +24,18 @@ float decodeSrgb(float x) {
   return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
 }
 
-Rgbf checkedColor(const std::vector<double>& c) {
+Rgbf checkedColor(const std::vector<double>& c, bool mayBeNegative) {
   for (double x : c)
-    if (x < 0) throw ValueError("a colour must not be negative");
+    if (x < 0 && !mayBeNegative) throw ValueError("a colour must not be negative");
   if (c.size() == 1) return Rgbf(static_cast<float>(c[0]));
   return Rgbf(static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]));
 }
 
 }  // namespace
+
+bool isOneOf(std::string_view name, std::initializer_list<std::string_view> names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && isSpace(text.front())) text.remove_prefix(1);
@@ -74,10 +80,10 @@ long long parseInteger(std::string_view text) {
 }
 
 bool parseBoolean(std::string_view text) {
-  const std::string_view word = trimmed(text);
-  if (word == "true" || word == "True") return true;
-  if (word == "false" || word == "False") return false;
-  throw ValueError(quoted(word) + " is neither true nor false");
+  const std::string word = lowerCase(trimmed(text));
+  if (word == "true") return true;
+  if (word == "false") return false;
+  throw ValueError(quoted(trimmed(text)) + " is neither true nor false");
 }
 
 std::vector<std::string_view> splitList(std::string_view text) {
@@ -98,7 +104,7 @@ std::vector<double> parseNumbers(std::string_view text) {
   return numbers;
 }
 
-Rgbf parseRgb(std::string_view text, bool srgb) {
+Rgbf parseRgb(std::string_view text, bool srgb, bool mayBeNegative) {
   const std::string_view word = trimmed(text);
   Rgbf color;
   if (!word.empty() && word[0] == '#') {
@@ -113,14 +119,14 @@ Rgbf parseRgb(std::string_view text, bool srgb) {
     const std::vector<double> c = parseNumbers(word);
     if (c.size() != 1 && c.size() != 3)
       throw ValueError("a colour has 1 or 3 numbers, here are " + std::to_string(c.size()));
-    color = checkedColor(c);
+    color = checkedColor(c, mayBeNegative);
   }
   if (srgb) color = Rgbf(decodeSrgb(color.x), decodeSrgb(color.y), decodeSrgb(color.z));
   return color;
 }
 
-Rgbf parseSpectrum(std::string_view text) {
-  if (text.find(':') == std::string_view::npos) return parseRgb(text, false);
+Rgbf parseSpectrum(std::string_view text, bool mayBeNegative) {
+  if (text.find(':') == std::string_view::npos) return parseRgb(text, false, mayBeNegative);
   std::vector<SpectrumSample> samples;
   for (std::string_view part : splitList(text)) {
     const std::size_t colon = part.find(':');
@@ -129,7 +135,8 @@ Rgbf parseSpectrum(std::string_view text) {
     samples.push_back({parseNumber(part.substr(0, colon)), parseNumber(part.substr(colon + 1))});
     if (samples.size() > 1 && samples.back().wavelength <= samples[samples.size() - 2].wavelength)
       throw ValueError("the wavelengths of a spectrum must increase");
-    if (samples.back().value < 0) throw ValueError("a spectrum must not be negative");
+    if (samples.back().value < 0 && !mayBeNegative)
+      throw ValueError("a spectrum must not be negative");
   }
   return spectrumToRgb(samples);
 }

@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: MIT
 // Values as they are written in scene files: numbers, lists of numbers, colours.
 #pragma once
 
+#include <initializer_list>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -17,20 +19,22 @@ class ValueError : public std::runtime_error {
 };
 
 std::string_view trimmed(std::string_view text);
+bool isOneOf(std::string_view name, std::initializer_list<std::string_view> names);
 
 // All throw ValueError. Numbers are finite, also as float where they become one.
 double parseNumber(std::string_view text);
 long long parseInteger(std::string_view text);
-bool parseBoolean(std::string_view text);  // true or false
+bool parseBoolean(std::string_view text);  // true or false, in any case
 
 // Numbers between commas and white space; any count, possibly none.
 std::vector<double> parseNumbers(std::string_view text);
 std::vector<std::string_view> splitList(std::string_view text);
 
-// "r, g, b", one number for grey, or "#rrggbb". Decoded from sRGB on demand. Not negative.
-Rgbf parseRgb(std::string_view text, bool srgb);
+// "r, g, b", one number for grey, or "#rrggbb". Decoded from sRGB on demand. Not negative unless
+// that is allowed.
+Rgbf parseRgb(std::string_view text, bool srgb, bool mayBeNegative = false);
 
 // A <spectrum>: one number, three numbers, or "wavelength:value, ..." in nanometres.
-Rgbf parseSpectrum(std::string_view text);
+Rgbf parseSpectrum(std::string_view text, bool mayBeNegative = false);
 
 }  // namespace h2mc

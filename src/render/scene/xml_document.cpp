@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "render/scene/xml_document.h"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ void locateAttributes(XmlElement& element) {
 }
 
 XmlElement convert(const pugi::xml_node& node, const std::shared_ptr<const SourceFile>& file,
-                   int depth) {
+                   int depth, std::vector<StrayText>& strays) {
   XmlElement element;
   element.name = node.name();
   element.file = file;
@@ -51,12 +52,13 @@ XmlElement convert(const pugi::xml_node& node, const std::shared_ptr<const Sourc
                           "attribute \"" + element.attributes[i].name + "\" is given twice");
   for (const pugi::xml_node& child : node.children()) {
     if (child.type() == pugi::node_element) {
-      element.children.push_back(convert(child, file, depth + 1));
+      element.children.push_back(convert(child, file, depth + 1, strays));
     } else if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) {
-      throw sourceError(
-          {file, static_cast<std::size_t>(std::max<std::ptrdiff_t>(child.offset_debug(), 0))},
-          "text inside <" + element.name + ">",
-          "expected only elements; values are written as value=\"...\"");
+      const auto begin =
+          static_cast<std::size_t>(std::max<std::ptrdiff_t>(child.offset_debug(), 0));
+      const std::size_t blanks = std::string_view(child.value()).find_first_not_of(" \t\r\n");
+      strays.push_back(
+          {{file, begin + (blanks == std::string_view::npos ? 0 : blanks)}, element.name});
     }
   }
   return element;
@@ -95,7 +97,18 @@ const std::string& XmlElement::require(std::string_view wanted) const {
                     "expected <" + name + " " + std::string(wanted) + "=\"...\">");
 }
 
-XmlElement parseXml(std::shared_ptr<const SourceFile> file) {
+XmlElement makeElement(const XmlElement& beside, std::string name,
+                       std::initializer_list<std::pair<std::string_view, std::string>> attributes) {
+  XmlElement made;
+  made.name = std::move(name);
+  made.file = beside.file;
+  made.offset = beside.offset;
+  for (const auto& [key, value] : attributes)
+    made.attributes.push_back({std::string(key), value, beside.offset, beside.offset});
+  return made;
+}
+
+XmlElement parseXml(const std::shared_ptr<const SourceFile>& file, std::vector<StrayText>& strays) {
   const std::string& text = file->text;
   if (const std::size_t zero = text.find('\0'); zero != std::string::npos)
     throw sourceError({file, zero}, "not a text file", "expected XML in UTF-8");
@@ -119,7 +132,7 @@ XmlElement parseXml(std::shared_ptr<const SourceFile> file) {
       throw sourceError({file, static_cast<std::size_t>(next.offset_debug())},
                         "a second element after </" + std::string(root.name()) + ">",
                         "expected one element around everything");
-  return convert(root, file, 0);
+  return convert(root, file, 0, strays);
 }
 
 }  // namespace h2mc

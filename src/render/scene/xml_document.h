@@ -1,10 +1,13 @@
+// SPDX-License-Identifier: MIT
 // A scene file as a tree of elements that know where they stand in the text. The only module that
 // knows the XML parser.
 #pragma once
 
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "render/scene/source_text.h"
@@ -36,8 +39,18 @@ struct XmlElement {
   const std::string& require(std::string_view attribute) const;
 };
 
-// Parses the text; the result is the root element. Throws SceneError on malformed XML, text between
-// the elements, attributes given twice, elements nested too deeply.
-XmlElement parseXml(std::shared_ptr<const SourceFile> file);
+// A new element that stands, for messages, where another one does.
+XmlElement makeElement(const XmlElement& beside, std::string name,
+                       std::initializer_list<std::pair<std::string_view, std::string>> attributes);
+
+// Text between elements, and the name of the element that it is in.
+struct StrayText {
+  SourcePlace place;
+  std::string element;
+};
+
+// Parses the text; the result is the root element, and text between elements is added to `strays`.
+// Throws SceneError on malformed XML, attributes given twice, elements nested too deeply.
+XmlElement parseXml(const std::shared_ptr<const SourceFile>& file, std::vector<StrayText>& strays);
 
 }  // namespace h2mc

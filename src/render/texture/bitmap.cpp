@@ -1,7 +1,9 @@
+// SPDX-License-Identifier: MIT
 #include "render/texture/bitmap.h"
 
 #include <map>
 #include <mutex>
+#include <tuple>
 
 #include "render/image/image_io.h"
 
@@ -19,13 +21,14 @@ Rgbf BitmapTexture::maximum() const {
   return m;
 }
 
-std::shared_ptr<const Image> BitmapTexture::load(const std::string& path, float gamma) {
+std::shared_ptr<const Image> BitmapTexture::load(const std::string& path, float gamma,
+                                                 const std::string& channel) {
   static std::mutex mutex;
-  static std::map<std::pair<std::string, float>, std::weak_ptr<const Image>> known;
+  static std::map<std::tuple<std::string, float, std::string>, std::weak_ptr<const Image>> known;
   const std::scoped_lock lock(mutex);
-  std::weak_ptr<const Image>& entry = known[{path, gamma}];
+  std::weak_ptr<const Image>& entry = known[{path, gamma, channel}];
   if (auto image = entry.lock()) return image;
-  auto image = std::make_shared<const Image>(readImage(path, gamma));
+  auto image = std::make_shared<const Image>(readImage(path, gamma, channel));
   entry = image;
   return image;
 }

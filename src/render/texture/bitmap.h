@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cmath>
 #include <memory>
 #include <string>
 
-#include "render/core/types.h"
 #include "render/image/image.h"
-#include "render/texture/checkerboard.h"
+#include "render/texture/mapping.h"
+#include "render/texture/slope.h"
 
 namespace h2mc {
 
@@ -41,12 +42,36 @@ struct BitmapTexture {
             linear3(a, dx.y, b, dy.y, ab, dxy.y) + c00.y,
             linear3(a, dx.z, b, dy.z, ab, dxy.z) + c00.z};
   }
+  // With the first derivatives by the surface's u and v, which `nearest` has none of.
+  template <class T>
+  TextureSlope<T> slope(const Vec2<T>& uv) const {
+    using S = Scalar<T>;
+    TextureSlope<T> r{evaluate<T>(uv), Rgb<T>(T(S(0))), Rgb<T>(T(S(0)))};
+    if (nearest) return r;
+    const Vec2<T> p = mapping(uv);
+    const T x = p.x * S(image->width) - S(0.5), y = p.y * S(image->height) - S(0.5);
+    if (!(std::abs(value(x)) < S(1e9) && std::abs(value(y)) < S(1e9))) return r;
+    const S left = std::floor(value(x)), top = std::floor(value(y));
+    const int i = static_cast<int>(left), j = static_cast<int>(top);
+    const Vec3<S> c00 = plain<T>(texel(i, j));
+    const Vec3<S> dx = plain<T>(texel(i + 1, j)) - c00, dy = plain<T>(texel(i, j + 1)) - c00;
+    const Vec3<S> dxy = plain<T>(texel(i + 1, j + 1)) - c00 - dx - dy;
+    const T a = x - left, b = y - top;
+    for (int c = 0; c < 3; ++c) {
+      const T byX = (b * dxy[c] + dx[c]) * S(image->width);
+      const T byY = (a * dxy[c] + dy[c]) * S(image->height);
+      r.du[c] = byX * S(mapping.scale.x) + byY * S(mapping.across.y);
+      r.dv[c] = byX * S(mapping.across.x) + byY * S(mapping.scale.y);
+    }
+    return r;
+  }
   Rgbf average() const;
   Rgbf maximum() const;
 
-  // The picture in `path` (gamma as for readImage), read once while anyone holds it. Throws
-  // ImageError.
-  static std::shared_ptr<const Image> load(const std::string& path, float gamma);
+  // The picture in `path` (gamma and channel as for readImage), read once while anyone holds it.
+  // Throws ImageError.
+  static std::shared_ptr<const Image> load(const std::string& path, float gamma,
+                                           const std::string& channel = "");
 
  private:
   Rgbf texel(int i, int j) const {

@@ -1,21 +1,11 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cmath>
 
-#include "render/core/types.h"
+#include "render/texture/mapping.h"
 
 namespace h2mc {
-
-// uv * scale + offset, as 2D textures look it up.
-struct TextureMapping {
-  Vec2f scale{1}, offset{0};
-
-  template <class T>
-  Vec2<T> operator()(const Vec2<T>& uv) const {
-    using S = Scalar<T>;
-    return {uv.x * S(scale.x) + S(offset.x), uv.y * S(scale.y) + S(offset.y)};
-  }
-};
 
 // Two colours by turns, 2 x 2 fields to the unit square.
 struct CheckerboardTexture {

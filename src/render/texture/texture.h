@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Textures: colour as a function of (u, v).
 #pragma once
 
@@ -9,13 +10,18 @@
 #include "render/texture/bitmap.h"
 #include "render/texture/checkerboard.h"
 #include "render/texture/constant.h"
+#include "render/texture/product.h"
 
 namespace h2mc {
 
 // Each has `template <class T> Rgb<T> evaluate(const Vec2<T>& uv) const`, differentiated with
 // respect to uv within a cell of the texture, and `Rgbf average() const` and `Rgbf maximum() const`
-// (per channel, over the texture).
-using Texture = std::variant<ConstantTexture, CheckerboardTexture, BitmapTexture>;
+// (per channel, over the texture). A class of its own, so that textures can have textures.
+using AnyTexture =
+    std::variant<ConstantTexture, CheckerboardTexture, BitmapTexture, ProductTexture>;
+struct Texture : AnyTexture {
+  using AnyTexture::AnyTexture;
+};
 
 // Shared by the BSDFs and lights that refer to it. Never null after a scene is read.
 using TexturePtr = std::shared_ptr<const Texture>;
@@ -23,6 +29,20 @@ using TexturePtr = std::shared_ptr<const Texture>;
 template <class T>
 Rgb<T> evaluate(const Texture& texture, const Vec2<T>& uv) {
   return std::visit([&](const auto& t) -> Rgb<T> { return t.template evaluate<T>(uv); }, texture);
+}
+
+// The same with its derivatives by uv; zero for textures that say none (all but bitmaps and what scales
+// them): those are flat but for their borders.
+template <class T>
+TextureSlope<T> slopeOf(const Texture& texture, const Vec2<T>& uv) {
+  return std::visit(
+      [&](const auto& t) -> TextureSlope<T> {
+        if constexpr (requires { t.template slope<T>(uv); })
+          return t.template slope<T>(uv);
+        else
+          return {t.template evaluate<T>(uv), Rgb<T>(T(Scalar<T>(0))), Rgb<T>(T(Scalar<T>(0)))};
+      },
+      texture);
 }
 
 // texture(uv) * scale; a constant colour stays passive, so it costs three products with a plain
@@ -36,6 +56,27 @@ Rgb<T> modulate(const Texture& texture, const Vec2<T>& uv, const T& scale) {
   }
   const Rgb<T> c = evaluate<T>(texture, uv);
   return {c.x * scale, c.y * scale, c.z * scale};
+}
+
+template <class T>
+[[gnu::noinline]] Rgb<T> ProductTexture::evaluate(const Vec2<T>& uv) const {
+  const Rgb<T> a = h2mc::evaluate<T>(*first, uv), b = h2mc::evaluate<T>(*second, uv);
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+template <class T>
+[[gnu::noinline]] TextureSlope<T> ProductTexture::slope(const Vec2<T>& uv) const {
+  const TextureSlope<T> a = slopeOf<T>(*first, uv), b = slopeOf<T>(*second, uv);
+  return {a.value * b.value, a.du * b.value + a.value * b.du, a.dv * b.value + a.value * b.dv};
+}
+
+// The number that a texture stands for where one number is wanted (a roughness, a weight): the mean of
+// its channels.
+template <class T>
+T scalarOf(const Rgb<T>& colour) {
+  using ad::linear3;
+  constexpr auto kThird = Scalar<T>(1) / Scalar<T>(3);
+  return linear3(colour.x, kThird, colour.y, kThird, colour.z, kThird);
 }
 
 Rgbf average(const Texture& texture);

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # tests/bench/compare/run.sh [OUTPUT FOLDER] [H2MC COMPARE OPTIONS...]: the project's standing comparison, less than two
 # minutes a scene. Every scene of the repository against its own reference, at the reference's size; each integrator
 # with the scenes' own options. Interrupted, the same command goes on. Options that are given replace these, as in

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "mcmc/chain/chain.h"
+
+#include <cassert>
+#include <cmath>
+
+#include "render/core/index.h"
+#include "render/integrator/parallel_rounds.h"
+
+namespace h2mc {
+namespace {
+
+// One mutation in so many is timed: often enough to know the shares, seldom enough not to matter.
+constexpr long long kTimedEvery = 64;
+
+}  // namespace
+
+Chain::Chain(const Target& target, const Path& start, Random random)
+    : target_(target),
+      current_(std::make_unique<ChainState>(target.maxLength())),
+      proposed_(std::make_unique<ChainState>(target.maxLength())),
+      random_(random) {
+  current_->path.technique = start.technique;
+  current_->path.sample = start.sample;
+  [[maybe_unused]] const bool positive = target_.evaluate(current_->path);
+  assert(positive);
+}
+
+void Chain::restart(const Path& from) {
+  assert(from.target > 0);
+  current_->forget();
+  current_->path = from;
+}
+
+void Chain::flush(const KernelMixture& kernels, SummedFilm& film) {
+  const Path& path = current_->path;
+  if (weight_ > 0) Mutation::splatPath(path, weight_, kernels.shared(path.technique), film);
+  weight_ = 0;
+}
+
+void Chain::step(KernelMixture& kernels, ChainFilms& films, ChainStatistics& statistics,
+                 MutationContext& context) {
+  context.random = &random_;
+  context.timed = steps_++ % kTimedEvery == 0;
+  context.seconds = {};
+  RaySeconds rays(context.timed);
+  const double start = context.timed ? wallClock() : 0;
+
+  context.memory = &memory_;
+  const auto choice = kernels.choose(current_->path, random_);
+  if (choice)
+    propose(*choice, kernels, films, statistics, context);
+  else
+    weight_ += 1;
+  ++statistics.mutations;
+  if (context.timed) {
+    statistics.profile.add({1, wallClock() - start, rays.seconds(), context.seconds.derivatives,
+                            context.seconds.gaussian});
+  }
+}
+
+void Chain::propose(const KernelMixture::Choice& choice, KernelMixture& kernels, ChainFilms& films,
+                    ChainStatistics& statistics, MutationContext& context) {
+  const std::size_t kind = choice.kind;
+  Mutation& mutation = kernels.mutation(kind);
+  proposed_->forget();
+  proposed_->path.finite = true;
+  context.sums = &statistics.sums[kind];
+  const Proposal proposal = mutation.propose(*current_, *proposed_, context);
+  double acceptance = 0;
+  if (proposal.made()) {
+    acceptance = proposal.acceptance(current_->path, proposed_->path,
+                                     kernels.logRatio(choice, proposed_->path));
+  } else {
+    ++statistics.refusals[kind][static_cast<std::size_t>(proposal.refusal())];
+    if (!proposed_->path.finite)
+      context.notFinite.add(proposed_->path.technique, proposed_->path.sample);
+  }
+
+  // Both states count with their expected weights [Veach 1997, section 11.4].
+  weight_ += 1 - acceptance;
+  statistics.acceptance[kind][at(current_->path.technique.length())].add(acceptance);
+  statistics.octaves[kind][KernelMixture::row(kernels.octave(current_->path.target))].add(
+      acceptance);
+  if (kind == 0) {
+    const double estimate = kernels.large->lastEstimate();
+    statistics.largeSteps.add(estimate);
+    if (estimate > 0 && kernels.meanTarget)
+      kernels.large->splatSample(*proposed_, kernels.share(), films.samples);
+  }
+  if (!(acceptance > 0)) return;
+  mutation.splatProposal(*proposed_, acceptance, kernels.shared(proposed_->path.technique),
+                         films.states);
+  if (random_.uniform() < acceptance) {
+    flush(kernels, films.states);
+    std::swap(current_, proposed_);
+    moved_ = true;
+  }
+}
+
+}  // namespace h2mc

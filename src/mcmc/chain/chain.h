@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// A Markov chain over paths: Metropolis-Hastings with whatever mutations it is given.
+#pragma once
+
+#include <memory>
+
+#include "mcmc/chain/kernel_mixture.h"
+#include "mcmc/chain/statistics.h"
+
+namespace h2mc {
+
+class Chain {
+ public:
+  // Starts at the path that `start` holds, which must have a positive target.
+  Chain(const Target& target, const Path& start, Random random);
+
+  // Makes one mutation. Splats the states, each with its expected weight over its target.
+  void step(KernelMixture& kernels, ChainFilms& films, ChainStatistics& statistics,
+            MutationContext& context);
+
+  // Splats what has gathered on the present state.
+  void flush(const KernelMixture& kernels, SummedFilm& film);
+
+  // Goes on from a path of another chain, with all that is known of it: traced anew, a path that a lens
+  // perturbation has joined might, by rounding, miss its mark. Preconditions: flushed, a target that is
+  // positive and the present one.
+  void restart(const Path& from);
+
+  bool moved() const { return moved_; }
+  const Path& path() const { return current_->path; }
+
+ private:
+  void propose(const KernelMixture::Choice& choice, KernelMixture& kernels, ChainFilms& films,
+               ChainStatistics& statistics, MutationContext& context);
+
+  const Target& target_;
+  std::unique_ptr<ChainState> current_, proposed_;
+  Slots memory_;  // of the kernels
+  Random random_;
+  double weight_ = 0;  // of the present state, not yet splatted
+  long long steps_ = 0;
+  bool moved_ = false;
+};
+
+}  // namespace h2mc

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Which kernel a chain runs next.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "mcmc/chain/large_step.h"
+#include "mcmc/chain/statistics.h"
+
+namespace h2mc {
+
+// The mixture of kernels that chains run: a large step with a fixed probability, otherwise one of the small ones that
+// apply to the state. Which one depends on the state: on what applies to it, and on the octave of its target.
+// Acceptance has the ratio of the probabilities with which the two states choose the kernel.
+//
+// How a kernel fares depends on that octave more than on anything else that is known without derivatives: where the
+// target is far above its mean it is so on a narrow ridge, which isotropic steps miss, and where it is low nothing is
+// gained by a Hessian. So the shares of kernels that can stand for one another are learned, from what was accepted.
+struct KernelMixture {
+  std::unique_ptr<LargeStep> large;
+  double largeProbability = 0.3;
+  struct Small {
+    std::unique_ptr<Mutation> mutation;
+    double
+        share;  // of the small steps; where some don't apply, the others divide theirs in proportion
+    // What a step costs in terms of the others that have a cost: these share what they have together as learn() finds.
+    std::optional<double> cost;
+  };
+  std::vector<Small> small;
+  // Mean of the target over all techniques' spaces, or an estimate made before the chains have run; none where large
+  // steps are proposals and nothing else. Otherwise they also count as independent samples of the image, weighted
+  // against the chains' states by the balance heuristic [Kelemen et al. 2002, section 3.4]: in n mutations there are
+  // n * largeProbability * density of these where there are n * target / meanTarget of those. With share =
+  // largeProbability * meanTarget, a state's contribution is then divided by target + share * density, and a sample's
+  // multiplied by share / (target + share * density), whatever the true mean is.
+  std::optional<double> meanTarget;
+
+  double share() const { return largeProbability * meanTarget.value_or(0); }
+  double shared(const Technique& technique) const {
+    return meanTarget ? share() * large->density(technique) : 0;
+  }
+  // Kinds of mutation: 0 is the large step, k the small one k - 1.
+  int kinds() const { return 1 + static_cast<int>(small.size()); }
+  std::vector<std::string> kindNames() const;
+  Mutation& mutation(std::size_t kind) { return kind ? *small[kind - 1].mutation : *large; }
+
+  // floor(log2(target / mean)) of a target > 0, between -kHighestOctave and kHighestOctave; 0 where the mean is not
+  // known.
+  int octave(double target) const;
+  // Index of an octave in tables such as ChainStatistics::octaves.
+  static std::size_t row(int octave) { return at(octave + kHighestOctave); }
+
+  struct Choice {
+    std::size_t kind;
+    double probability;  // with which the state draws it
+  };
+  // Draws the kind for a state; none where no small step applies to it and it was not to be a large one: the chain
+  // stays. Two random numbers, one for a large step.
+  std::optional<Choice> choose(const Path& state, Random& random) const;
+  double probability(std::size_t kind, const Path& state) const;
+  // log of the probability with which `proposed` draws that kind over the choice's own.
+  double logRatio(const Choice& choice, const Path& proposed) const;
+
+  // Sets the shares of the small steps that have a cost, at each octave, in proportion to the fourth power of
+  // acceptance over cost, each at least kLeast of what they have together, and lets every kernel learn. A function of
+  // what was counted alone. Chains may not be in the middle of a step.
+  void learn(const ChainStatistics& statistics);
+  static constexpr double kLeast = 0.01;
+
+ private:
+  // Of the small steps, each one's share at a state. `shares` has room for all.
+  void sharesAt(const Path& state, double* shares) const;
+
+  // [small step][octave]: shares of what the steps with a cost have together; empty before learn().
+  std::vector<std::vector<double>> learned_;
+};
+
+}  // namespace h2mc

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Large steps: proposals that do not depend on the state.
+#pragma once
+
+#include "mcmc/chain/mutation.h"
+
+namespace h2mc {
+
+class LargeStep : public Mutation {
+ public:
+  std::string_view name() const override { return "large"; }
+  // An unbiased estimate of the film's mean luminance that the last proposal gives; zero if it was dark.
+  double lastEstimate() const { return lastEstimate_; }
+  // With which density proposals cover the primary space of a technique.
+  virtual double density(const Technique& technique) const = 0;
+  // Adds the last proposal to a film, a sample by itself, with `share` / (target + share * density) as weight of each
+  // path: see KernelMixture::meanTarget.
+  virtual void splatSample(const ChainState& proposed, double share, SummedFilm& film) const = 0;
+
+ protected:
+  double lastEstimate_ = 0;
+};
+
+}  // namespace h2mc

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// What a chain counts, and how it is told.
+#pragma once
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "mcmc/chain/mutation.h"
+
+namespace h2mc {
+
+struct AcceptanceCount {
+  long long proposed = 0;
+  double expected = 0;  // sum of acceptance probabilities
+  void add(double acceptance) {
+    ++proposed;
+    expected += acceptance;
+  }
+  void add(const AcceptanceCount& other) {
+    proposed += other.proposed;
+    expected += other.expected;
+  }
+};
+
+// Mean and variance of independent estimates.
+struct Moments {
+  long long count = 0;
+  double sum = 0, squares = 0;
+  void add(double x) {
+    ++count;
+    sum += x;
+    squares += x * x;
+  }
+  void add(const Moments& other) {
+    count += other.count;
+    sum += other.sum;
+    squares += other.squares;
+  }
+  double mean() const { return count > 0 ? sum / static_cast<double>(count) : 0; }
+  double variance() const;       // of one estimate
+  double standardError() const;  // of the mean
+};
+
+// Seconds of sampled mutations by what they went into.
+struct Profile {
+  long long mutations = 0;  // timed
+  double total = 0, rays = 0, derivatives = 0, gaussian = 0;
+  void add(const Profile& other);
+};
+
+// The octave of a state's target, floor(log2(target / mean)), lies between minus and plus this.
+inline constexpr int kHighestOctave = 20;
+
+// One group of chains' tallies, merged in the groups' order.
+struct ChainStatistics {
+  ChainStatistics(int mutationKinds, int maxLength);
+
+  std::vector<std::vector<AcceptanceCount>> acceptance;    // [kind][path length]
+  std::vector<std::vector<AcceptanceCount>> octaves;       // [kind][KernelMixture::row(octave)]
+  std::vector<std::array<long long, kRefusals>> refusals;  // [kind][Refusal]: nothing proposed
+  std::vector<std::vector<double>> sums;  // [kind]: what a mutation adds up to learn from
+  DerivativeCounts derivatives;
+  Moments largeSteps;  // target over density: estimates of the mean luminance
+  Profile profile;
+  long long mutations = 0;
+  NotFiniteCounts notFinite;  // contributions of proposals
+
+  void add(const ChainStatistics& other);
+  nlohmann::json json(const std::vector<std::string>& kindNames) const;
+};
+
+}  // namespace h2mc

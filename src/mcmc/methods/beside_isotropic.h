@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Methods whose steps by derivatives stand beside isotropic ones and lens perturbations.
+#pragma once
+
+#include "mcmc/methods/method.h"
+
+namespace h2mc {
+
+// Such a method. `steps` is to be besideIsotropic() of its mutation.
+MetropolisMethod methodBesideIsotropic(
+    std::string_view name, std::string_view description,
+    std::vector<MetropolisMethod::Step> (*steps)(const OptionSet& options));
+
+// The mixture, by the options lensProbability and isotropicProbability. `cost`: of the mutation, in isotropic steps.
+std::vector<MetropolisMethod::Step> besideIsotropic(const OptionSet& options,
+                                                    std::string_view mutation, double cost);
+
+}  // namespace h2mc

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "mcmc/methods/method.h"
+
+#include "mcmc/mutations/mutations.h"
+#include "render/integrator/common_options.h"
+
+namespace h2mc {
+
+std::span<const Parameter> sharedParameters() {
+  static constexpr Parameter kParameters[] = {
+      kMaxDepthParameter,
+      kMinDepthParameter,
+      {"mutationsPerPixel", ParameterType::kInteger, "128",
+       "mutations for each pixel, if no budget is given"},
+      {"directSamples", ParameterType::kInteger, "-1",
+       "samples a pixel of path tracing for paths of up to two edges, which the chains then leave "
+       "out; 0: the chains do all, -1: what makes the whole picture least noisy"},
+      {"chains", ParameterType::kInteger, "512", "independent Markov chains"},
+      {"bootstrapSamples", ParameterType::kInteger, "0",
+       "bidirectional samples that place the chains and give the first estimate of the brightness; "
+       "0: 100000, and more in a long render"},
+      {"largeStepProbability", ParameterType::kNumber, "0.2", "share of large steps"},
+      {"largeStep", ParameterType::kString, "bidirectional",
+       "what a large step proposes: a connection of a whole bidirectional sample, or one technique",
+       "bidirectional|multiplexed"},
+      {"importanceMap", ParameterType::kBoolean, "true",
+       "let chains spend as many mutations on dark parts of the picture as on bright ones, as far "
+       "as the picture is known by then"},
+  };
+  return kParameters;
+}
+
+void checkOptions(const MetropolisMethod& method, const OptionSet& options) {
+  for (const char* name : {"minDepth", "mutationsPerPixel", "chains"})
+    requireRange(options, name, 1, kNoLimit);
+  requireRange(options, "bootstrapSamples", 0, kNoLimit);
+  requireRange(options, "directSamples", -1, kNoLimit);
+  requireRange(options, "largeStepProbability", 0, 1);
+  for (const MetropolisMethod::Step& step : method.steps(options))
+    if (const auto check = mutationNamed(step.mutation).check) check(options);
+  if (method.check) method.check(options);
+}
+
+KernelMixture makeKernels(const MetropolisMethod& method, const PathTarget& target,
+                          const TechniqueDistribution& techniques, const OptionSet& options,
+                          int minLength) {
+  SlotNumbers slots;
+  const MutationSetup setup{target, techniques, minLength, options, slots};
+  KernelMixture kernels;
+  kernels.large = largeStepNamed(options.string("largeStep")).create(setup);
+  kernels.largeProbability = options.number("largeStepProbability");
+  for (const MetropolisMethod::Step& step : method.steps(options))
+    kernels.small.push_back({mutationNamed(step.mutation).create(setup), step.share, step.cost});
+  return kernels;
+}
+
+}  // namespace h2mc

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mcmc/methods/method.h"
+
+namespace h2mc {
+
+MetropolisMethod mmltMethod();
+
+}  // namespace h2mc

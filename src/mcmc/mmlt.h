@@ -1,9 +1,0 @@
-#pragma once
-
-#include "mcmc/metropolis_integrator.h"
-
-namespace h2mc {
-
-MetropolisMethod mmltMethod();
-
-}  // namespace h2mc

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "mcmc/mutations/isotropic_step.h"
+
+#include <cmath>
+
+#include "mcmc/mutations/mutation_options.h"
+#include "render/core/index.h"
+#include "render/core/unit_interval.h"
+
+namespace h2mc {
+
+float IsotropicStep::offset(Random& random) const {
+  if (shape_ == StepShape::kGaussian) return sigma_ * random.normal();
+  constexpr float kSmallest = 1.f / 1024, kLargest = 1.f / 64;
+  const float step = kLargest * std::exp(-std::log(kLargest / kSmallest) * random.uniform());
+  return random.next() & 1 ? step : -step;
+}
+
+Proposal IsotropicStep::propose(ChainState& current, ChainState& proposed,
+                                MutationContext& context) {
+  const Path& from = current.path;
+  Path& to = proposed.path;
+  to.technique = from.technique;
+  for (int i = 0; i < from.technique.dimension(); ++i)
+    to.sample.u[at(i)] = wrap(from.sample.u[at(i)] + offset(*context.random));
+  for (int i = 0; i < from.technique.choices(); ++i)
+    to.sample.choice[at(i)] = wrap(from.sample.choice[at(i)] + offset(*context.random));
+  to.sample.time = from.sample.time;
+  if (target_.hasTime()) to.sample.time = reflect(from.sample.time + offset(*context.random));
+  return target_.evaluate(to) ? Proposal::withLogRatio(0) : Proposal::none();
+}
+
+MutationPlugin isotropicStep() {
+  static constexpr Parameter kParameters[] = {
+      kSigmaParameter,
+      {"smallStep", ParameterType::kString, "gaussian", "shape of the isotropic step",
+       "gaussian|kelemen"},
+  };
+  return {"isotropic", "all primary coordinates move a little, each by itself", kParameters,
+          [](const MutationSetup& setup) -> std::unique_ptr<Mutation> {
+            const bool kelemen = setup.options.string("smallStep") == "kelemen";
+            return std::make_unique<IsotropicStep>(
+                setup.target, kelemen ? StepShape::kKelemen : StepShape::kGaussian,
+                static_cast<float>(setup.options.number("sigma")));
+          },
+          [](const OptionSet& options) { requireRange(options, "sigma", 1e-9, 1); }};
+}
+
+}  // namespace h2mc

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Langevin steps: by the gradient alone, preconditioned by what gradients the chains have met.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "mcmc/mutations/gaussian_step.h"
+
+namespace h2mc {
+
+// Mean squares of the log target's derivatives, for each technique and coordinate, for paths that depend on time and
+// others apart; frozen between calls of learn().
+class GradientSquares {
+ public:
+  // Adds the gradient at a path to `sums`, which grow as needed.
+  static void add(const Path& path, const Gradient& gradient, std::vector<double>& sums);
+  // Takes the means of what was summed.
+  void learn(const std::vector<double>& sums);
+  // Of the path's coordinates; null where too little is known.
+  const float* of(const Path& path) const;
+
+ private:
+  std::vector<float> means_;
+};
+
+// A Langevin step [Roberts and Tweedie 1996] with a diagonal preconditioner learned from past gradients [Luan et al.
+// 2020, "Langevin Monte Carlo Rendering with Gradient-based Adaptation"]. With g the gradient of the log target at
+// the state and G_i the mean of g_i^2 over the states of past epochs in the same technique, coordinate i moves by
+//
+//     N(variance_i g_i / 2, variance_i),    1 / variance_i = 1 / sigma^2 + max(G_i, g_i^2) / stepSize^2,
+//
+// the drift bounded to maxDrift deviations. The Gaussian is a function of the state while an epoch lasts, and the
+// reverse density is that of the Gaussian at the proposal: the step is exact. (The authors' program lets the
+// preconditioner follow the chain, whose reverse density is another one.)
+class LangevinStep final : public GaussianStep {
+ public:
+  struct Settings {
+    float sigma = 0.01f;
+    float stepSize = 1;
+    float maxDrift = 3;
+  };
+  // Keeps a reference.
+  LangevinStep(const Target& target, const Settings& settings, SlotNumbers& slots)
+      : GaussianStep(target, settings.sigma, slots), settings_(settings) {}
+  std::string_view name() const override { return "langevin"; }
+  void learn(const ChainStatistics& statistics, std::size_t kind) override;
+
+ private:
+  void make(const Path& path, MutationContext& context, Gaussian& gaussian) const override;
+
+  Settings settings_;
+  GradientSquares squares_;
+};
+
+MutationPlugin langevinStep();
+
+}  // namespace h2mc

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Parameters that more than one mutation has.
+#pragma once
+
+#include "render/scene/option_set.h"
+
+namespace h2mc {
+
+inline constexpr Parameter kSigmaParameter = {
+    "sigma", ParameterType::kNumber, "0.01",
+    "standard deviation of isotropic steps, and of the prior of those that derivatives give"};
+inline constexpr Parameter kMaxDriftParameter = {
+    "maxDrift", ParameterType::kNumber, "3",
+    "longest drift of a proposal along an eigenvector or axis, in its standard deviations"};
+
+inline constexpr Parameter kRoughnessThresholdParameter = {
+    "roughnessThreshold", ParameterType::kNumber, "0.1",
+    "scattering lobes narrower than this (radians) are followed, not joined to, by perturbations "
+    "of a path's ends"};
+inline float roughnessThreshold(const OptionSet& options) {
+  return static_cast<float>(options.number("roughnessThreshold"));
+}
+
+}  // namespace h2mc

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// All chains of a render, and the image that they make.
+#pragma once
+
+#include "mcmc/chain/chain.h"
+#include "mcmc/methods/method.h"
+#include "mcmc/populations/bootstrap.h"
+#include "mcmc/populations/image_estimate.h"
+#include "mcmc/populations/luminance_estimate.h"
+#include "mcmc/populations/population.h"
+#include "render/integrator/integrator.h"
+
+namespace h2mc {
+
+// Chains run in epochs. In the first, the target is the luminance; each of the later ones, three times
+// as long as all before it together, divides it by what the picture is known to look like by then
+// (ImportanceMap), unless the options switch that off, and mixes its kernels as they have done so far.
+// The chains' states go over to the new target as the population does it. Every epoch's image by itself
+// tends to the right one; the result is their mean, each with its number of mutations.
+class ChainEnsemble {
+ public:
+  // Chains start from the bootstrap's samples. Keeps references, but not to the request.
+  ChainEnsemble(const Scene& scene, const MetropolisMethod& method, const OptionSet& options,
+                const Bootstrap& bootstrap, int minLength, int maxLength,
+                const RenderRequest& request);
+
+  int groups() const { return static_cast<int>(groups_.size()); }
+  int chains() const { return static_cast<int>(chains_.size()); }
+
+  // Makes `steps` mutations with each chain of a group. Groups may run in parallel.
+  void run(int group, long long steps);
+  // Adds what all groups have made to the picture. To be called between one round of runs and the next.
+  void endRound();
+
+  // Whether the epoch is over. Then endEpoch() and nextEpoch() may be called, between two rounds; `direct` is
+  // an image of what the chains leave out, in the scene's units, or null.
+  bool epochIsOver() const;
+  void endEpoch() { image_.end(); }
+  void nextEpoch(const Image* direct);
+  // How many times as many mutations as now the next epoch's end will have seen.
+  static constexpr double kGrowth = 4;
+
+  // The present epoch's picture by either half of the chains, in the measured rows and in the scene's units.
+  TwoEstimates halves() const { return image_.halves(luminance().mean); }
+  double mutationsPerPixel() const;
+  // Edge of the square cells, in pixels, for which the picture so far is known well enough.
+  int cell() const;
+
+  // Image, number of mutations, mean luminance and statistics of all so far; changes nothing.
+  RenderResult result() const;
+
+ private:
+  // Chains that one thread runs, with what they must not share.
+  struct Group {
+    ChainFilms films;
+    KernelMixture kernels;
+    ChainStatistics statistics;
+    MutationContext context;
+    std::size_t begin = 0, end = 0;  // of its chains
+    int half = 0;
+    long long mutationsBefore = 0, largeStepsBefore = 0;  // the present round
+  };
+
+  // Deals the chains out to the groups, each of which has chains of one half.
+  void formGroups(std::size_t half);
+  ChainStatistics statistics() const;
+  double perPixel(double mutations) const;
+  LuminanceEstimate::Value luminance() const { return luminance_.with(statistics().largeSteps); }
+  // By the picture of all past epochs, and what the chains leave out.
+  ImportanceMap nextMap(double luminance, const Image* direct) const;
+  // States for the chains to go on from under the next map.
+  Members renewed(const ImportanceMap& next) const;
+
+  const Scene& scene_;
+  std::uint64_t seed_;
+  int threads_, maxLength_;
+  bool useMap_;
+  ImportanceMap importance_;
+  SceneTarget target_;
+  TechniqueDistribution techniques_;
+  LuminanceEstimate luminance_;
+  std::unique_ptr<Population> population_;
+  std::vector<std::unique_ptr<Chain>> chains_;
+  std::size_t half_ = 0;  // so many of them are of the first half
+  std::vector<Group> groups_;
+  ImageEstimate image_;
+  int epoch_ = 0;
+};
+
+}  // namespace h2mc

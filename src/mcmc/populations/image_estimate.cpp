@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "mcmc/populations/image_estimate.h"
+
+#include "render/core/index.h"
+
+namespace h2mc {
+namespace {
+
+// Mutations a pixel that are added up in floats before their sum is added to what there is: rounding is then
+// below 1e-4 of a pixel even if all splats are the same, and below 1e-6 if they are not.
+constexpr double kStretch = 1024;
+
+}  // namespace
+
+ImageEstimate::ImageEstimate(const FilmSettings& settings)
+    : settings_(settings),
+      statesFilm_(settings, measuredRows(settings)),
+      samplesFilm_(settings, measuredRows(settings)),
+      states_(at(settings.width) * at(settings.height), Rgbf(0)),
+      samples_(states_.size(), Rgbf(0)) {}
+
+double ImageEstimate::pixels() const {
+  return static_cast<double>(settings_.width) * settings_.height;
+}
+
+void ImageEstimate::sort(ChainFilms& films, int threads) const {
+  const int bands = bandCount(threads, settings_.height);
+  films.states.splats.sort(statesFilm_, bands);
+  films.samples.splats.sort(samplesFilm_, bands);
+}
+
+void ImageEstimate::add(std::span<const Part> parts, int threads) {
+  std::vector<FilmPart> states, samples;
+  for (const Part& part : parts) {
+    states.push_back({&part.films->states.splats, part.half});
+    samples.push_back({&part.films->samples.splats, part.half});
+    for (Sums* sums : {&stretch_, &epoch_[at(part.half)]}) {
+      sums->mutations += static_cast<double>(part.mutations);
+      sums->largeSteps += static_cast<double>(part.largeSteps);
+      sums->overTarget += part.films->states.overTarget;
+    }
+  }
+  addInOrder<float>(states, threads, statesFilm_);
+  addInOrder<float>(samples, threads, samplesFilm_);
+  for (const Part& part : parts) part.films->clear();
+  if (stretch_.mutations >= kStretch * pixels()) {
+    endStretch();
+    statesFilm_.clear();
+    samplesFilm_.clear();
+  }
+}
+
+void ImageEstimate::begin() {
+  statesFilm_.reserve();
+  samplesFilm_.reserve();
+}
+
+void ImageEstimate::end() {
+  endStretch();
+  epoch_ = {};
+  for (ShortFilm* film : {&statesFilm_, &samplesFilm_}) {
+    film->release();
+    film->clearHalves();
+  }
+}
+
+ImageEstimate::Scales ImageEstimate::scales(const Sums& sums) {
+  return {sums.mutations / sums.overTarget,
+          sums.largeSteps > 0 ? sums.mutations / sums.largeSteps : 0};
+}
+
+void ImageEstimate::endStretch() {
+  if (stretch_.overTarget > 0) {
+    const Scales by = scales(stretch_);
+    std::size_t i = 0;
+    for (int y = 0; y < settings_.height; ++y)
+      for (int x = 0; x < settings_.width; ++x, ++i) {
+        states_[i] += statesFilm_.pixel(x, y, by.states);
+        samples_[i] += samplesFilm_.pixel(x, y, by.samples);
+      }
+    mutations_ += stretch_.mutations;
+  }
+  stretch_ = {};
+}
+
+Image ImageEstimate::image(double luminance) const {
+  Image image(settings_.width, settings_.height);
+  const bool more = stretch_.overTarget > 0;
+  const double mutations = mutations_ + (more ? stretch_.mutations : 0);
+  if (!(mutations > 0)) return image;
+  const Scales by = more ? scales(stretch_) : Scales{0, 0};
+  const auto l = static_cast<float>(luminance), scale = static_cast<float>(1 / mutations);
+  std::size_t i = 0;
+  for (int y = 0; y < settings_.height; ++y)
+    for (int x = 0; x < settings_.width; ++x, ++i) {
+      Rgbf states = states_[i], samples = samples_[i];
+      if (more) {
+        states += statesFilm_.pixel(x, y, by.states);
+        samples += samplesFilm_.pixel(x, y, by.samples);
+      }
+      image.pixels[i] = (states * l + samples) * scale;
+    }
+  return image;
+}
+
+TwoEstimates ImageEstimate::halves(double luminance) const {
+  TwoEstimates result;
+  const auto half = [&](int h, Image& image, double& mutationsAPixel) {
+    const Sums& sums = epoch_[at(h)];
+    if (!(sums.overTarget > 0)) return;
+    const Scales by = scales(sums);
+    image = statesFilm_.developHalf(h, luminance * by.states / sums.mutations);
+    const Image samples = samplesFilm_.developHalf(h, by.samples / sums.mutations);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] += samples.pixels[i];
+    mutationsAPixel = sums.mutations / pixels();
+  };
+  half(0, result.a, result.samplesA);
+  half(1, result.b, result.samplesB);
+  return result;
+}
+
+}  // namespace h2mc

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// The picture that chains make.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "mcmc/chain/chain_films.h"
+#include "mcmc/render/noise.h"
+
+namespace h2mc {
+
+// The image as an estimate from the chains' states and from the samples of their large steps, over stretches of
+// mutations with one target each. A stretch ends with its epoch or, so that floats do to add up in, after a
+// thousand mutations a pixel.
+//
+// With target f of mean b over the primary spaces, contribution C with filter h, share s = p_large * (a guess of
+// b), and large steps' density p, a pixel is the sum of two integrals that weigh every path by the balance heuristic,
+//
+//     I = integral of h C f / (f + s p)  +  integral of h C s p / (f + s p).
+//
+// The states of n mutations, distributed as f / b, estimate the first by b / n times the sum of h C / (f + s p); the
+// N large steps estimate the second by 1 / N times the sum of h C s / (f + s p). As for b: the luminance of all paths
+// is L = integral of luminance(C) = b E[luminance(C) / f] over the states, so that b = L / m, m being the states' mean
+// of luminance(C) / f and L known from the bootstrap and all large steps. m is 1 without an importance map. Nothing is
+// subtracted: where C and h are not negative no pixel is.
+//
+// Memory: 48 bytes a pixel, 24 of them only between begin() and end(), and up to 9 MB.
+class ImageEstimate {
+ public:
+  explicit ImageEstimate(const FilmSettings& settings);
+
+  // What a group has left in a round.
+  struct Part {
+    ChainFilms* films;
+    int half;  // 0 or 1
+    long long mutations, largeSteps;
+  };
+  // To be called by each group when it has made its part, before all of them are added.
+  void sort(ChainFilms& films, int threads) const;
+  // Adds the parts in their order and empties them. The same sums for any number of threads.
+  void add(std::span<const Part> parts, int threads);
+
+  // Begins an epoch; ends it, which keeps only its picture. add() and halves() are for between the two.
+  void begin();
+  void end();
+
+  // The picture so far, if the mean luminance is known to be this.
+  Image image(double luminance) const;
+  // The present epoch's picture by either half, in the measured rows.
+  TwoEstimates halves(double luminance) const;
+
+ private:
+  struct Sums {
+    double mutations = 0, largeSteps = 0;
+    double overTarget = 0;
+  };
+  // By what a film's sums are to be multiplied to add to states_ and samples_.
+  struct Scales {
+    double states, samples;
+  };
+  static Scales scales(const Sums& sums);
+  void endStretch();
+  double pixels() const;
+
+  FilmSettings settings_;
+  ShortFilm statesFilm_, samplesFilm_;
+  Sums stretch_;               // on the films
+  std::array<Sums, 2> epoch_;  // of the films' halves
+  // Past stretches, summed with their number of mutations as weights: states for a mean luminance of 1, and
+  // samples.
+  std::vector<Rgbf> states_, samples_;
+  double mutations_ = 0;
+};
+
+}  // namespace h2mc

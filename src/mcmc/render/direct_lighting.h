@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// The shortest paths by path tracing, beside the chains: a Metropolis chain is wasted on them.
+#pragma once
+
+#include <array>
+
+#include "mcmc/render/noise.h"
+#include "render/integrator/sampling_integrator.h"
+#include "render/scene/option_set.h"
+
+namespace h2mc {
+
+// Paths of one and two edges, in parts: each makes it less noisy. First as much of it as every render
+// can use, then, when the chains know their own noise, as much as makes the whole picture's least.
+class DirectLighting {
+ public:
+  static constexpr int kLongest = 2;  // in edges, where maxDepth allows
+
+  // By the options minDepth, maxDepth and directSamples; the request's seed, threads, stop flag and
+  // progress, which is called while it renders.
+  // Keeps references.
+  DirectLighting(const Scene& scene, const OptionSet& options, const RenderRequest& request);
+
+  // Whether it is split off from the chains at all.
+  bool wanted() const { return wanted_ != 0 && minDepth_ <= longest_; }
+  bool interrupted() const { return interrupted_; }
+  // In the scene's units; empty before the first sample.
+  const Image& image() const { return image_; }
+
+  // Brings it up to the least that a render of so many seconds, or of so many mutations a pixel,
+  // gets. Both may only grow from call to call.
+  void extendTo(double renderSeconds, long long mutationsPerPixel);
+
+  // Measures its noise and that of the chains, whose picture, in the measured rows and in the scene's units, is
+  // known by cells of cell x cell pixels, both relative to the whole picture.
+  void measure(const TwoEstimates& chains, int cell);
+  // Where a render stands.
+  struct Standing {
+    double mutations = 0;     // a pixel, so far
+    double chainSeconds = 0;  // of them
+    double seconds = 0;       // of everything
+    double endSeconds = 0;  // of the render, or of its part up to the next mark; 0: by endMutations
+    double endMutations = 0;  // a pixel
+    double growth = 1;        // there will be another call before so many times the mutations
+  };
+  // Brings it up to what makes the variance of the whole picture least, by what was measured, when the
+  // render is over or when it has `growth` times the mutations. A number given by the option
+  // directSamples stays. By what samples and mutations have cost where the budget is a time, else at
+  // a fixed price, so that the picture does not depend on the clock. As the number then depends on the
+  // samples before, their mean is biased: by a few hundredths of its standard error where few samples
+  // decide, and by less the more there are.
+  void balance(const Standing& now);
+  // Wall seconds so far.
+  double seconds() const { return seconds_; }
+
+  // Adds image, mean luminance and statistics to those of the longer paths, whose image may be
+  // empty.
+  void addTo(RenderResult& result) const;
+  // Contributions that were not finite and are left out.
+  long long notFinite() const { return tally().notFinite; }
+
+ private:
+  // One of two independent halves.
+  struct Half {
+    SampleTally tally;
+    Image rows;  // its own picture, in the measured rows
+  };
+  // More samples, half of them in each half: until there are so many a pixel, and so many seconds are over; 0:
+  // the other is the only limit.
+  void add(double seconds, long long samples);
+  SampleTally tally() const;
+  // A pixel; no whole numbers where the time was short.
+  double perPixel(const SampleTally& tally) const;
+
+  const Scene& scene_;
+  const RenderRequest& request_;
+  int wanted_, minDepth_, longest_, step_;  // every so many-th row is measured
+  double renderSeconds_ = 0;                // of renders so far
+  double perSample_ = 0, perMutation_ = 0;  // measured variances
+  std::uint64_t parts_ = 0;                 // a seed each
+  std::array<Half, 2> halves_;
+  Image image_;
+  double seconds_ = 0;
+  bool interrupted_ = false;
+};
+
+// The number of samples for each mutation that makes perSample / samples + perMutation / mutations
+// least at a given cost of both, costs in the same unit; samples get no more than four fifths of it.
+double samplesAMutation(double perSample, double sampleCost, double perMutation,
+                        double mutationCost);
+
+}  // namespace h2mc

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#include "mcmc/render/integrators.h"
+
+#include "mcmc/methods/methods.h"
+#include "mcmc/render/metropolis_integrator.h"
+
+namespace h2mc {
+
+std::span<const IntegratorFactory> allIntegrators() {
+  static const std::vector<IntegratorFactory> list = [] {
+    std::vector<IntegratorFactory> all(renderIntegrators().begin(), renderIntegrators().end());
+    for (const MetropolisMethod& method : metropolisMethods())
+      all.push_back({method.plugin(), [&method](const OptionSet& options) {
+                       return makeMetropolisIntegrator(method, options);
+                     }});
+    return all;
+  }();
+  return list;
+}
+
+}  // namespace h2mc

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// The lists of methods, their mutations and presets.
+#include "mcmc/methods/methods.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "mcmc/methods/presets.h"
+#include "mcmc/mutations/mutations.h"
+#include "mcmc/render/integrator_choice.h"
+#include "scene_files.h"
+
+namespace h2mc::testing {
+namespace {
+
+TEST(Methods, SharesAddUpAndEveryOptionIsThereOnce) {
+  for (const MetropolisMethod& method : metropolisMethods()) {
+    const OptionSet options(method.plugin());
+    double sum = 0;
+    for (const MetropolisMethod::Step& step : method.steps(options)) {
+      sum += step.share;
+      for (const Parameter& p : mutationNamed(step.mutation).parameters)
+        EXPECT_TRUE(options.has(p.name)) << method.name << " " << p.name;
+    }
+    EXPECT_NEAR(sum, 1, 1e-12) << method.name;
+    std::set<std::string_view> names;
+    for (const Parameter& p : method.parameters)
+      EXPECT_TRUE(names.insert(p.name).second) << method.name << " " << p.name;
+    EXPECT_NO_THROW(checkOptions(method, options));
+  }
+}
+
+TEST(Methods, AnOptionBelongsToTheMethodsThatHaveItsMutation) {
+  EXPECT_FALSE(OptionSet(methodNamed("mmlt").plugin()).has("trajectoryLength"));
+  EXPECT_TRUE(OptionSet(methodNamed("h2mc").plugin()).has("trajectoryLength"));
+  OptionSet options(methodNamed("mmlt").plugin());
+  options.set("sigma", "0");
+  EXPECT_THROW(checkOptions(methodNamed("mmlt"), options), OptionError);
+}
+
+TEST(Presets, SetWhatTheySayAndTheCommandLineGoesBefore) {
+  const Scene scene = SceneFolder().read(
+      sceneWith("<integrator type=\"mmlt\"><integer name=\"maxDepth\" value=\"7\"/></integrator>"));
+  for (const Preset& preset : presets()) {
+    const OptionSet options =
+        chooseIntegrator(std::string(preset.name) + ":chains=17", scene).options;
+    EXPECT_EQ(options.integrator(), preset.method);
+    EXPECT_EQ(options.integer("chains"), 17);
+    EXPECT_EQ(options.integer("maxDepth"), 7);
+    for (const auto& [name, value] : preset.options) {
+      OptionSet only(methodNamed(preset.method).plugin());
+      only.set(name, std::string(value));
+      EXPECT_EQ(options.values().find(name)->second, only.values().find(name)->second) << name;
+    }
+  }
+  EXPECT_THROW(checkIntegratorWish("mmlt-2014:largeSteps=3"), OptionError);
+  EXPECT_THROW(checkIntegratorWish("mmlt-2013"), OptionError);
+}
+
+}  // namespace
+}  // namespace h2mc::testing
