@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <new>
 
 #include "cli/commands.h"
@@ -70,6 +71,13 @@ namespace {
 int report(int exitCode, const char* message) {
   std::fprintf(stderr, "h2mc: %s\n", message);
   return exitCode;
+}
+
+// What stdout holds back until the end may fail too: a full disk must not look like success.
+int flushed(int exitCode) {
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout) return exitCode;
+  return report(kFailed, "cannot write to stdout: is the disk full?");
 }
 
 // The command in which parsing went wrong, for the hint.
@@ -148,7 +156,7 @@ int main(int argc, char** argv) {
     // Messages go to stderr: stdout is for data.
     spdlog::set_default_logger(spdlog::stderr_color_mt("h2mc"));
     spdlog::set_pattern("h2mc: %v");
-    return h2mc::run(argc, argv);
+    return h2mc::flushed(h2mc::run(argc, argv));
   } catch (const std::bad_alloc&) {
     return h2mc::report(h2mc::kFailed, "out of memory");
   } catch (const std::exception& e) {

@@ -159,10 +159,6 @@ void printSummary(const Outputs& outputs, const RenderResult& result) {
 }
 
 int write(const Plan& plan, const RenderResult& result) {
-  if (result.interrupted && (result.image.width == 0 || result.samples == 0)) {
-    fmt::print(stderr, "h2mc: interrupted before there was an image\n");
-    return kInterrupted;
-  }
   // The paths were right before the render: a failure now is not the user's mistake.
   try {
     writeImage(plan.outputs.image, result.image, attributesOf(plan, result));

@@ -2,6 +2,7 @@
 #include "cli/stop_signals.h"
 
 #include <signal.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <array>
@@ -19,10 +20,26 @@ static_assert(std::atomic<bool>::is_always_lock_free, "it is set in a signal han
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 std::array<struct sigaction, kSignals.size()> previous;
 
+// In milliseconds; may be called by a signal handler.
+long long now() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return time.tv_sec * 1000LL + time.tv_nsec / 1000000;
+}
+
+// A key that bounces, or a shell and a terminal that both pass a signal on, are no wish to lose the picture.
+constexpr long long kSameWish = 1000;
+std::atomic<long long> firstSignal{0};  // when it came; 0: not yet
+static_assert(std::atomic<long long>::is_always_lock_free, "as above");
+
 void onSignal(int) {
-  if (stopRequested.exchange(true)) {
+  const long long time = now();
+  long long first = 0;
+  if (firstSignal.compare_exchange_strong(first, time)) {
+    stopRequested = true;
+  } else if (time - first > kSameWish) {
     removeTemporaryFiles();
-    _exit(kInterrupted);
+    _exit(kFailed);
   }
 }
 
@@ -30,6 +47,7 @@ void onSignal(int) {
 
 StopSignals::StopSignals() {
   stopRequested = false;
+  firstSignal = 0;
   struct sigaction action = {};
   action.sa_handler = onSignal;
   action.sa_flags = SA_RESTART;

@@ -6,8 +6,9 @@
 
 namespace h2mc {
 
-// While one exists, the first SIGINT, SIGTERM or SIGHUP asks the render to stop, and a second one ends the
-// program at once with exit code 130, leaving no half-written file. Only one at a time.
+// While one exists, the first SIGINT, SIGTERM or SIGHUP asks the render to stop, and another one
+// more than a second later ends the program at once, without a picture, with exit code 3; no half-written file is left.
+// Only one at a time.
 class StopSignals {
  public:
   StopSignals();

@@ -3,6 +3,8 @@
 """Options that are wrong end with exit code 2, one message, and no file."""
 
 import os
+import re
+import subprocess
 import unittest
 
 import _h2mc
@@ -32,6 +34,18 @@ class General(_h2mc.Test):
                 self.fails(2, command, "scene.xml", "--threads", bad, says=("--threads", "from 1 to 1024", f'"{bad}"'))
             for bad in ("-1", "1.5", "18446744073709551616", "x", ""):
                 self.fails(2, command, "scene.xml", "--seed", bad, says=("--seed", "18446744073709551615", f'"{bad}"'))
+
+    def test_full_stdout(self):
+        self.write("scene.xml", _h2mc.SCENE)
+        self.write_png("a.png", 4, 4, lambda x, y: (9, 9, 9))
+        for arguments in (["--version"], ["--help"], ["render", "--help"], ["list"], ["info", "scene.xml"],
+                          ["diff", "a.png", "a.png"], ["gradcheck", "scene.xml", "--paths", 50],
+                          ["compare", "scene.xml", "-i", "path", "-s", 1, "--repeats", 1, "-o", "out"]):
+            with self.subTest(arguments), open("/dev/full", "w", encoding="ascii") as full:
+                result = subprocess.run([_h2mc.BINARY, *map(str, arguments)], cwd=self.folder, stdout=full,
+                                        stderr=subprocess.PIPE, text=True, check=False)
+                self.assertEqual(result.returncode, 3, result.stderr)
+                self.assertEqual(len(re.findall(r"(?m)^h2mc: cannot write", result.stderr)), 1, result.stderr)
 
     def test_commands(self):
         self.fails(2)

@@ -132,6 +132,25 @@ class Render(_h2mc.Test):
                 os.remove(self.path("a.exr"))
                 os.remove(self.path("a.json"))
 
+    # Ctrl-C twice within 10 ms is one wish, and a picture is there as soon as a signal no longer ends the program by
+    # itself, however early.
+    def test_interrupted_at_once_and_twice(self):
+        for integrator in ("path", "bdpt", "mmlt", "h2mc:directSamples=0"):
+            with self.subTest(integrator):
+                process = self.start("-i", integrator, "--width", "2000", "--height", "1500", stderr=subprocess.PIPE)
+                _h2mc.wait_for_handler(process)
+                process.send_signal(signal.SIGINT)
+                time.sleep(0.01)
+                process.send_signal(signal.SIGTERM)
+                _, messages = process.communicate(timeout=60)
+                self.assertEqual(process.returncode, 130, messages)
+                self.assertEqual(self.files(), ["a.exr", "scene.xml"])
+                attributes, _ = self.read_exr("a.exr")
+                self.assertEqual(attributes["interrupted"], 1)
+                self.assertGreater(attributes["samples"], 0)
+                self.assertGreater(attributes["meanLuminance"], 0)
+                os.remove(self.path("a.exr"))
+
     def test_nohup(self):
         process = subprocess.Popen(["nohup", _h2mc.BINARY, "render", "scene.xml", "-o", "a.exr", "--time", "2", "-q"],
                                    cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,

@@ -49,7 +49,7 @@ TEST(ImageEstimate, IsRight) {
     std::vector<double> sum(kPixels, 0), squares(kPixels, 0);
     for (int run = 0; run < kRuns; ++run) {
       Random random(3, static_cast<std::uint64_t>(100 * share), static_cast<std::uint64_t>(run));
-      ImageEstimate estimate(settings(kPixels, 1));
+      ImageEstimate estimate(settings(kPixels, 1), 1);
       for (int epoch = 0; epoch < 2; ++epoch) {
         estimate.begin();
         for (int round = 0; round < 3; ++round) {
@@ -58,10 +58,10 @@ TEST(ImageEstimate, IsRight) {
           std::vector<ImageEstimate::Part> parts;
           for (int half = 0; half < 2; ++half) {
             makePart(films[half], random, mutations, largeSteps, share);
-            estimate.sort(films[half], 1);
+            estimate.sort(films[half]);
             parts.push_back({&films[half], half, mutations, largeSteps});
           }
-          estimate.add(parts, 1);
+          estimate.add(parts);
         }
         const TwoEstimates halves = estimate.halves(kMean);
         EXPECT_NEAR(halves.samplesA, 3 * 2000. / kPixels, 1e-9);
@@ -91,13 +91,13 @@ TEST(ImageEstimate, IsRight) {
 // A stretch of few mutations, in which large steps were luckier than all that the mean luminance is known from.
 TEST(ImageEstimate, IsNeverNegative) {
   Random random(1, 2, 3);
-  ImageEstimate estimate(settings(8, 1));
+  ImageEstimate estimate(settings(8, 1), 1);
   estimate.begin();
   ChainFilms films;
   makePart(films, random, 40, 10, 20);
-  estimate.sort(films, 1);
+  estimate.sort(films);
   const ImageEstimate::Part part{&films, 0, 40, 10};
-  estimate.add({&part, 1}, 1);
+  estimate.add({&part, 1});
   const double luminance = 0.1 * kMean;
   for (const Rgbf& pixel : estimate.image(luminance).pixels) EXPECT_GE(pixel.x, 0);
   for (const Rgbf& pixel : estimate.halves(luminance).a.pixels) EXPECT_GE(pixel.x, 0);
@@ -109,16 +109,16 @@ TEST(ImageEstimate, IsNeverNegative) {
 // percent.
 TEST(ImageEstimate, ManyMutationsStayAccurate) {
   constexpr int kRounds = 400, kMutations = 10000, kPixels = 16;
-  ImageEstimate estimate(settings(kPixels, 1));
+  ImageEstimate estimate(settings(kPixels, 1), 1);
   estimate.begin();
   for (int round = 0; round < kRounds; ++round) {
     ChainFilms films;
     for (int i = 0; i < kMutations; ++i)
       films.states.splatState((static_cast<float>(i % kPixels) + 0.5f) / kPixels, 0.5f, Rgbf(0.1f),
                               1, 0.1, 0.033);
-    estimate.sort(films, 1);
+    estimate.sort(films);
     const ImageEstimate::Part part{&films, 0, kMutations, 0};
-    estimate.add({&part, 1}, 1);
+    estimate.add({&part, 1});
   }
   for (const Rgbf& pixel : estimate.image(1).pixels)
     EXPECT_NEAR(pixel.x, 0.1 / 0.133, 1e-4 * 0.1 / 0.133);

@@ -31,7 +31,7 @@ ChainEnsemble::ChainEnsemble(const Scene& scene, const MetropolisMethod& method,
       luminance_(bootstrap),
       population_(method.population()),
       chains_(at(std::max(options.integer("chains"), 1))),
-      image_(scene.film) {
+      image_(scene.film, request.threads) {
   const std::vector<double> weights = bootstrap.techniqueLuminance();
   techniques_.setWeights(weights, std::vector<bool>(weights.size(), true));
   if (options.string("largeStep") != "bidirectional")
@@ -78,7 +78,7 @@ void ChainEnsemble::run(int index, long long steps) {
       chain.step(group.kernels, group.films, group.statistics, group.context);
     chain.flush(group.kernels, group.films.states);
   }
-  image_.sort(group.films, threads_);
+  image_.sort(group.films);
 }
 
 void ChainEnsemble::endRound() {
@@ -91,7 +91,7 @@ void ChainEnsemble::endRound() {
     group.mutationsBefore = mutations;
     group.largeStepsBefore = largeSteps;
   }
-  image_.add(parts, threads_);
+  image_.add(parts);
 }
 
 double ChainEnsemble::perPixel(double mutations) const {

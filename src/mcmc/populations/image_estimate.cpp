@@ -2,6 +2,7 @@
 #include "mcmc/populations/image_estimate.h"
 
 #include "render/core/index.h"
+#include "render/integrator/parallel_rounds.h"
 
 namespace h2mc {
 namespace {
@@ -12,24 +13,25 @@ constexpr double kStretch = 1024;
 
 }  // namespace
 
-ImageEstimate::ImageEstimate(const FilmSettings& settings)
+ImageEstimate::ImageEstimate(const FilmSettings& settings, int threads)
     : settings_(settings),
+      threads_(threads),
       statesFilm_(settings, measuredRows(settings)),
       samplesFilm_(settings, measuredRows(settings)),
-      states_(at(settings.width) * at(settings.height), Rgbf(0)),
-      samples_(states_.size(), Rgbf(0)) {}
+      states_(at(settings.width) * at(settings.height)),
+      samples_(states_.size()) {}
 
 double ImageEstimate::pixels() const {
   return static_cast<double>(settings_.width) * settings_.height;
 }
 
-void ImageEstimate::sort(ChainFilms& films, int threads) const {
-  const int bands = bandCount(threads, settings_.height);
+void ImageEstimate::sort(ChainFilms& films) const {
+  const int bands = bandCount(threads_, settings_.height);
   films.states.splats.sort(statesFilm_, bands);
   films.samples.splats.sort(samplesFilm_, bands);
 }
 
-void ImageEstimate::add(std::span<const Part> parts, int threads) {
+void ImageEstimate::add(std::span<const Part> parts) {
   std::vector<FilmPart> states, samples;
   for (const Part& part : parts) {
     states.push_back({&part.films->states.splats, part.half});
@@ -40,8 +42,8 @@ void ImageEstimate::add(std::span<const Part> parts, int threads) {
       sums->overTarget += part.films->states.overTarget;
     }
   }
-  addInOrder<float>(states, threads, statesFilm_);
-  addInOrder<float>(samples, threads, samplesFilm_);
+  addInOrder<float>(states, threads_, statesFilm_);
+  addInOrder<float>(samples, threads_, samplesFilm_);
   for (const Part& part : parts) part.films->clear();
   if (stretch_.mutations >= kStretch * pixels()) {
     endStretch();
@@ -64,6 +66,10 @@ void ImageEstimate::end() {
   }
 }
 
+void ImageEstimate::forEachRow(const std::function<void(int, std::size_t)>& work) const {
+  parallelFor(threads_, settings_.height, [&](int y) { work(y, at(y) * at(settings_.width)); });
+}
+
 ImageEstimate::Scales ImageEstimate::scales(const Sums& sums) {
   return {sums.mutations / sums.overTarget,
           sums.largeSteps > 0 ? sums.mutations / sums.largeSteps : 0};
@@ -72,12 +78,12 @@ ImageEstimate::Scales ImageEstimate::scales(const Sums& sums) {
 void ImageEstimate::endStretch() {
   if (stretch_.overTarget > 0) {
     const Scales by = scales(stretch_);
-    std::size_t i = 0;
-    for (int y = 0; y < settings_.height; ++y)
+    forEachRow([&](int y, std::size_t i) {
       for (int x = 0; x < settings_.width; ++x, ++i) {
         states_[i] += statesFilm_.pixel(x, y, by.states);
         samples_[i] += samplesFilm_.pixel(x, y, by.samples);
       }
+    });
     mutations_ += stretch_.mutations;
   }
   stretch_ = {};
@@ -90,8 +96,7 @@ Image ImageEstimate::image(double luminance) const {
   if (!(mutations > 0)) return image;
   const Scales by = more ? scales(stretch_) : Scales{0, 0};
   const auto l = static_cast<float>(luminance), scale = static_cast<float>(1 / mutations);
-  std::size_t i = 0;
-  for (int y = 0; y < settings_.height; ++y)
+  forEachRow([&](int y, std::size_t i) {
     for (int x = 0; x < settings_.width; ++x, ++i) {
       Rgbf states = states_[i], samples = samples_[i];
       if (more) {
@@ -100,6 +105,7 @@ Image ImageEstimate::image(double luminance) const {
       }
       image.pixels[i] = (states * l + samples) * scale;
     }
+  });
   return image;
 }
 

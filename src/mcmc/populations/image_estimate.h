@@ -3,10 +3,12 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 
 #include "mcmc/chain/chain_films.h"
 #include "mcmc/render/noise.h"
+#include "render/core/zeroed_array.h"
 
 namespace h2mc {
 
@@ -28,7 +30,8 @@ namespace h2mc {
 // Memory: 48 bytes a pixel, 24 of them only between begin() and end(), and up to 9 MB.
 class ImageEstimate {
  public:
-  explicit ImageEstimate(const FilmSettings& settings);
+  // `threads`: to add up on; 0: one a core. What comes out does not depend on it.
+  ImageEstimate(const FilmSettings& settings, int threads);
 
   // What a group has left in a round.
   struct Part {
@@ -37,9 +40,9 @@ class ImageEstimate {
     long long mutations, largeSteps;
   };
   // To be called by each group when it has made its part, before all of them are added.
-  void sort(ChainFilms& films, int threads) const;
-  // Adds the parts in their order and empties them. The same sums for any number of threads.
-  void add(std::span<const Part> parts, int threads);
+  void sort(ChainFilms& films) const;
+  // Adds the parts in their order and empties them.
+  void add(std::span<const Part> parts);
 
   // Begins an epoch; ends it, which keeps only its picture. add() and halves() are for between the two.
   void begin();
@@ -63,13 +66,17 @@ class ImageEstimate {
   void endStretch();
   double pixels() const;
 
+  // Calls work(y, i) for every row y, whose first pixel is number i, in parallel.
+  void forEachRow(const std::function<void(int y, std::size_t i)>& work) const;
+
   FilmSettings settings_;
+  int threads_;
   ShortFilm statesFilm_, samplesFilm_;
   Sums stretch_;               // on the films
   std::array<Sums, 2> epoch_;  // of the films' halves
   // Past stretches, summed with their number of mutations as weights: states for a mean luminance of 1, and
   // samples.
-  std::vector<Rgbf> states_, samples_;
+  ZeroedArray<Rgbf> states_, samples_;
   double mutations_ = 0;
 };
 

@@ -205,21 +205,13 @@ RoundsPlan MetropolisRender::plan(ChainEnsemble& chains) {
 }
 
 RenderResult MetropolisRender::withChains() {
-  const bool stoppedEarly = stopped();
+  const bool stoppedEarly = stopped();  // while direct light or the bootstrap was made
   ChainEnsemble chains(scene_, method_, options_, *bootstrap_, minLength_, maxLength_, request_);
-  RoundsPlan rounds = plan(chains);
-  RenderRequest request = request_;
-  // Stopped before the chains began: one round, so that the image is whole.
-  const std::atomic<bool> goOn{false};
-  if (stoppedEarly) {
-    request.stop = &goOn;
-    rounds.rounds = 1;
-    rounds.marks.clear();
-  }
+  const RoundsPlan rounds = plan(chains);
   chainsBegan_ = clock_.wallSeconds();
   directBefore_ = direct_.seconds();
   const RoundsResult done =
-      runRounds(request, clock_, chains.groups(), rounds, [&](int group, long long round) {
+      runRounds(request_, clock_, chains.groups(), rounds, [&](int group, long long round) {
         chains.run(group,
                    stepsPerChain_ > 0 ? std::min(kRound, stepsPerChain_ - round * kRound) : kRound);
       });
@@ -238,8 +230,9 @@ RenderResult MetropolisRender::run() {
                      request_.seed, request_.threads, request_.stop);
   if (wanted == 0) bootstrap_->extendTo(bootstrapSamples(clock_.wallSeconds() - before));
   if (bootstrap_->luminance().mean() > 0) return withChains();
-  spdlog::warn("no light arrives through paths of {} to {} edges: nothing to sample there",
-               minLength_, maxLength_);
+  if (!stopped())
+    spdlog::warn("no light arrives through paths of {} to {} edges: nothing to sample there",
+                 minLength_, maxLength_);
   return directAlone();
 }
 

@@ -144,7 +144,9 @@ void BasicFilm<Real>::splat(float filmX, float filmY, const Rgbf& value, RowRang
 
 template <class Real>
 void BasicFilm<Real>::clear() {
-  std::fill(pixels_.begin(), pixels_.end(), Accumulator{});
+  // A small one is soon overwritten; of a large one few pixels may have been touched.
+  pixels_ = {};
+  reserve();
 }
 
 template <class Real>
@@ -155,12 +157,12 @@ void BasicFilm<Real>::clearHalves() {
 
 template <class Real>
 void BasicFilm<Real>::release() {
-  pixels_ = std::vector<Accumulator>();
+  pixels_ = {};
 }
 
 template <class Real>
 void BasicFilm<Real>::reserve() {
-  pixels_.resize(pixelCount());
+  pixels_ = ZeroedArray<Accumulator>(pixelCount());
 }
 
 // What the sum in a pixel is to be multiplied with.

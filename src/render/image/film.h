@@ -7,6 +7,7 @@
 
 #include "render/camera/film_settings.h"
 #include "render/core/index.h"
+#include "render/core/zeroed_array.h"
 #include "render/image/image.h"
 
 namespace h2mc {
@@ -89,7 +90,7 @@ class BasicFilm {
   std::vector<float> table_;
   std::vector<double> integral_;
   std::vector<double> normalX_, normalY_;  // integral of h over the film for each column, row
-  std::vector<Accumulator> pixels_;
+  ZeroedArray<Accumulator> pixels_;
   int step_ = 0;  // 0: no halves
   std::vector<double> halves_[2];
 };

@@ -13,6 +13,7 @@
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfThreading.h>
 
 #include <algorithm>
 #include <array>
@@ -21,6 +22,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <thread>
 
 #include "render/image/atomic_file.h"
 #include "render/image/color_encoding.h"
@@ -160,12 +162,19 @@ void writeExr(const AtomicFile& file, const Image& image, const ImageAttributes&
                                          sizeof(Rgbf) * image.width));
   }
 
+  // Compressing a large picture takes seconds; starting threads is not worth it for a small one.
+  constexpr std::size_t kLarge = 1 << 20;
+  const int threads = image.pixels.size() < kLarge
+                          ? 0
+                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  if (threads > Imf::globalThreadCount()) Imf::setGlobalThreadCount(threads);
+
   // Imf::OutputFile's destructor writes the table of lines and keeps quiet about failures: the
   // stream's state tells.
   std::ofstream stream(file.temporaryPath(), std::ios::binary);
   {
     Imf::StdOFStream exrStream(stream, file.temporaryPath().c_str());
-    Imf::OutputFile exr(exrStream, header);
+    Imf::OutputFile exr(exrStream, header, threads);
     exr.setFrameBuffer(frame);
     exr.writePixels(image.height);
   }

@@ -109,7 +109,8 @@ RoundsResult runRounds(const RenderRequest& request, const RenderClock& clock, i
   const auto mayEnd = [&] { return inFirstPass() || result.rounds % plan.roundsAPass == 0; };
   std::size_t mark = 0;
   while (plan.rounds == 0 || result.rounds < plan.rounds) {
-    if (mayEnd() && stopped()) {
+    // One round at least: an interruption never leaves an empty picture.
+    if (result.rounds > 0 && mayEnd() && stopped()) {
       result.interrupted = true;
       break;
     }
