@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "cli/commands.h"
+#include "cli/keeper.h"
 #include "cli/progress_display.h"
 #include "cli/statistics_table.h"
 #include "cli/stop_signals.h"
@@ -35,6 +36,7 @@ struct RenderOptions {
   int width = 0, height = 0;
   double scale = 0;
   std::vector<std::string> defines;
+  KeepOptions keep;
   bool permissive = false;
   bool quiet = false, png = false;
 };
@@ -76,10 +78,12 @@ void checkOutputs(const Outputs& outputs, const RenderOptions& options) {
   checkDistinct({{"the scene", options.scene},
                  {"the image", outputs.image},
                  {"the PNG", outputs.png},
-                 {"--stats", options.statistics}});
+                 {"--stats", options.statistics},
+                 {"the checkpoint", checkpointFile(options.keep, outputs.image)}});
   checkWritable(outputs.image);
   if (!outputs.png.empty()) checkWritable(outputs.png);
   checkWritableFile(options.statistics);
+  checkWritableFile(options.keep.checkpoint);
 }
 
 Scene readSceneFor(const RenderOptions& options) {
@@ -158,11 +162,24 @@ void printSummary(const Outputs& outputs, const RenderResult& result) {
   fmt::print(stderr, "{}", statisticsTable(details));
 }
 
+void writeImages(const Plan& plan, const RenderResult& result) {
+  writeImage(plan.outputs.image, result.image, attributesOf(plan, result));
+  if (!plan.outputs.png.empty()) writeImage(plan.outputs.png, result.image);
+}
+
+// An image on the way, which is replaced later: that it can't be written is no reason to stop.
+void tryToWriteImages(const Plan& plan, const RenderResult& result) {
+  try {
+    writeImages(plan, result);
+  } catch (const std::exception& e) {
+    spdlog::warn("{}", e.what());
+  }
+}
+
 int write(const Plan& plan, const RenderResult& result) {
   // The paths were right before the render: a failure now is not the user's mistake.
   try {
-    writeImage(plan.outputs.image, result.image, attributesOf(plan, result));
-    if (!plan.outputs.png.empty()) writeImage(plan.outputs.png, result.image);
+    writeImages(plan, result);
     if (!plan.options.statistics.empty())
       writeTextAtomically(plan.options.statistics, statisticsOf(plan, result).dump(2) + "\n");
   } catch (const std::exception& e) {
@@ -198,6 +215,10 @@ int render(const RenderOptions& options) {
 
   // Until the files are written, so that a second signal leaves no half of one.
   const StopSignals signals;
+  Keeper keeper(options.keep,
+                Checkpoint(checkpointFile(options.keep, outputs.image),
+                           identityOf(scene, plan.integrator, plan.seed)),
+                [&](const RenderResult& soFar) { tryToWriteImages(plan, soFar); });
   RenderResult result;
   {
     ProgressDisplay display(
@@ -209,9 +230,18 @@ int render(const RenderOptions& options) {
     request.threads = plan.threads;
     request.stop = &StopSignals::requested();
     request.progress = [&](const RenderProgress& progress) { display.update(progress); };
-    result = choice.integrator->render(scene, request);
+    request.resume = keeper.resume();
+    if (keeper.wanted()) request.watch = [&](RenderInProgress& render) { keeper.look(render); };
+    try {
+      result = choice.integrator->render(scene, request);
+    } catch (const ArchiveError& e) {
+      throw InputError("cannot go on from \"" + checkpointFile(options.keep, outputs.image) +
+                       "\": " + e.what());
+    }
   }
-  return write(plan, result);
+  const int exitCode = write(plan, result);
+  if (exitCode != kFailed) keeper.finish(result.interrupted);
+  return exitCode;
 }
 
 }  // namespace
@@ -262,10 +292,12 @@ void addRenderCommand(CLI::App& app, Run& run) {
   addThreads(*command, options->threads);
   addDefines(*command, options->defines);
   addPermissive(*command, options->permissive);
+  addKeepOptions(*command, options->keep);
   command->add_option("--stats", options->statistics, "JSON file to write the statistics to");
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command->footer(
       "Ctrl-C ends the render, writes the image of what was done so far and exits with code 130.\n"
+      "--resume goes on from the checkpoint that is left then, or by a power cut.\n"
       "\n"
       "Examples:\n"
       "  h2mc render scene.xml -o scene.exr --png --time 60\n"

@@ -40,7 +40,7 @@ class General(_h2mc.Test):
         self.write_png("a.png", 4, 4, lambda x, y: (9, 9, 9))
         for arguments in (["--version"], ["--help"], ["render", "--help"], ["list"], ["info", "scene.xml"],
                           ["diff", "a.png", "a.png"], ["gradcheck", "scene.xml", "--paths", 50],
-                          ["compare", "scene.xml", "-i", "path", "-s", 1, "--repeats", 1, "-o", "out"]):
+                          ["compare", "scene.xml", "-i", "path", "-m", 1, "--repeats", 1, "-o", "out"]):
             with self.subTest(arguments), open("/dev/full", "w", encoding="ascii") as full:
                 result = subprocess.run([_h2mc.BINARY, *map(str, arguments)], cwd=self.folder, stdout=full,
                                         stderr=subprocess.PIPE, text=True, check=False)

@@ -30,7 +30,7 @@ TEST(Rounds, MarksInRounds) {
     EXPECT_EQ(mark, seen.size());
     seen.push_back(so.rounds);
   };
-  const RenderClock clock;
+  RenderClock clock;
   runRounds({}, clock, 1, plan, [](int, long long) {});
   EXPECT_EQ(seen, (std::vector<long long>{1, 1, 4, 7}));
 }
@@ -61,7 +61,7 @@ TEST(Rounds, NoMarksAfterAnInterruption) {
   plan.marks = {2, 10};
   std::vector<long long> seen;
   plan.atMark = [&](std::size_t, const RoundsResult& so) { seen.push_back(so.rounds); };
-  const RenderClock clock;
+  RenderClock clock;
   const RoundsResult result = runRounds(request, clock, 1, plan, [&](int, long long round) {
     if (round == 4) stop = true;
   });

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "render/core/archive.h"
 #include "render/core/index.h"
 #include "render/integrator/parallel_rounds.h"
 
@@ -32,6 +33,12 @@ void Chain::restart(const Path& from) {
   current_->path = from;
 }
 
+void Chain::archive(Archive& archive) {
+  assert(weight_ == 0);
+  archive(current_->path, random_, steps_, moved_);
+  if (archive.reading()) current_->forget();
+}
+
 void Chain::flush(const KernelMixture& kernels, SummedFilm& film) {
   const Path& path = current_->path;
   if (weight_ > 0) Mutation::splatPath(path, weight_, kernels.shared(path.technique), film);
@@ -40,6 +47,10 @@ void Chain::flush(const KernelMixture& kernels, SummedFilm& film) {
 
 void Chain::step(KernelMixture& kernels, ChainFilms& films, ChainStatistics& statistics,
                  MutationContext& context) {
+  if (steps_ % kDerivedAnew == 0) {
+    current_->forget();
+    memory_.forget();
+  }
   context.random = &random_;
   context.timed = steps_++ % kTimedEvery == 0;
   context.seconds = {};

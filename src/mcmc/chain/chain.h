@@ -26,6 +26,12 @@ class Chain {
   // positive and the present one.
   void restart(const Path& from);
 
+  // Where it stands, between two steps. Precondition: flushed.
+  void archive(Archive& archive);
+  // After so many steps what is derived from the state is made anew. A chain that has been read from an archive begins
+  // without it: if it was written after a multiple of these, its further steps are the same, to the bit.
+  static constexpr long long kDerivedAnew = 128;
+
   bool moved() const { return moved_; }
   const Path& path() const { return current_->path; }
 

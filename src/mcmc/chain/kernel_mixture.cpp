@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "render/core/archive.h"
+
 namespace h2mc {
 namespace {
 
@@ -101,6 +103,11 @@ void KernelMixture::learn(const ChainStatistics& statistics) {
     for (std::size_t l = 0; l < ofKernel.size(); ++l)
       ofKernel[l] = kLeast + (1 - kLeast * learners) * ofKernel[l] / totals[l];
   learned_ = std::move(shares);
+}
+
+void KernelMixture::archive(Archive& archive) {
+  archive(meanTarget, learned_);
+  for (int kind = 0; kind < kinds(); ++kind) mutation(at(kind)).archive(archive);
 }
 
 }  // namespace h2mc

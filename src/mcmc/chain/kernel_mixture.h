@@ -67,6 +67,8 @@ struct KernelMixture {
   // what was counted alone. Chains may not be in the middle of a step.
   void learn(const ChainStatistics& statistics);
   static constexpr double kLeast = 0.01;
+  // What was learned, by the kernels too, and the mean.
+  void archive(Archive& archive);
 
  private:
   // Of the small steps, each one's share at a state. `shares` has room for all.

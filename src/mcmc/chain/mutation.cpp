@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "render/core/archive.h"
 #include "render/path/path_text.h"
 
 namespace h2mc {
@@ -27,5 +28,7 @@ double Proposal::acceptance(const Path& from, const Path& to, double logSelectio
   const double ratio = double(to.target) / from.target * std::exp(logRatio_ + logSelection);
   return std::isfinite(ratio) ? std::min(1.0, ratio) : (ratio > 0 ? 1.0 : 0.0);
 }
+
+void NotFiniteCounts::archive(Archive& archive) { archive(count, first); }
 
 }  // namespace h2mc

@@ -14,6 +14,7 @@
 
 namespace h2mc {
 
+class Archive;
 class OptionSet;
 class TechniqueDistribution;
 struct ChainStatistics;
@@ -42,6 +43,7 @@ struct NotFiniteCounts {
 
   void add(const Technique& technique, const PrimarySample& sample, long long times = 1);
   void add(const NotFiniteCounts& other);
+  void archive(Archive& archive);
 };
 
 // What a mutation works with; one a group of chains.
@@ -130,6 +132,9 @@ class Mutation {
   virtual void learn(const ChainStatistics& statistics, std::size_t kind) {
     (void)statistics, (void)kind;
   }
+
+  // What learn() has set, so that a render can be gone on with.
+  virtual void archive(Archive&) {}
 
   // Adds the last proposal to a film, with the probability of its acceptance as weight: the path's contribution over
   // its target and `shared` (see KernelMixture). A mutation that knows what else it might as well have proposed adds

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/core/archive.h"
+
 namespace h2mc {
 
 double Moments::variance() const {
@@ -68,6 +70,11 @@ void ChainStatistics::add(const ChainStatistics& other) {
   profile.add(other.profile);
   mutations += other.mutations;
   notFinite.add(other.notFinite);
+}
+
+void ChainStatistics::archive(Archive& archive) {
+  archive(acceptance, octaves, refusals, sums, derivatives, largeSteps, profile, mutations,
+          notFinite);
 }
 
 namespace {

@@ -68,6 +68,7 @@ struct ChainStatistics {
   NotFiniteCounts notFinite;  // contributions of proposals
 
   void add(const ChainStatistics& other);
+  void archive(Archive& archive);
   nlohmann::json json(const std::vector<std::string>& kindNames) const;
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mcmc/mutations/gaussian_step.h"
+#include "render/core/archive.h"
 
 namespace h2mc {
 
@@ -17,6 +18,7 @@ class GradientSquares {
   static void add(const Path& path, const Gradient& gradient, std::vector<double>& sums);
   // Takes the means of what was summed.
   void learn(const std::vector<double>& sums);
+  void archive(Archive& archive) { archive(means_); }
   // Of the path's coordinates; null where too little is known.
   const float* of(const Path& path) const;
 
@@ -45,6 +47,7 @@ class LangevinStep final : public GaussianStep {
       : GaussianStep(target, settings.sigma, slots), settings_(settings) {}
   std::string_view name() const override { return "langevin"; }
   void learn(const ChainStatistics& statistics, std::size_t kind) override;
+  void archive(Archive& archive) override { archive(squares_); }
 
  private:
   void make(const Path& path, MutationContext& context, Gaussian& gaussian) const override;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/core/archive.h"
 #include "render/core/index.h"
 #include "render/integrator/parallel_rounds.h"
 
@@ -163,6 +164,15 @@ Members ChainEnsemble::renewed(const ImportanceMap& next) const {
   for (Path& path : members.states)
     path.target = h2mc::luminance(path.contribution) * next(path.filmX, path.filmY);
   return members;
+}
+
+void ChainEnsemble::archive(Archive& archive) {
+  archive(importance_, half_, epoch_, image_);
+  for (const auto& chain : chains_) archive(*chain);
+  for (Group& group : groups_)
+    archive(group.kernels, group.statistics, group.context.derivatives, group.context.notFinite,
+            group.mutationsBefore, group.largeStepsBefore);
+  if (archive.reading()) formGroups(half_);
 }
 
 RenderResult ChainEnsemble::result() const {

@@ -46,6 +46,10 @@ class ChainEnsemble {
   // Edge of the square cells, in pixels, for which the picture so far is known well enough.
   int cell() const;
 
+  // Where all chains stand and what was added and learned, between two rounds. Reading: into an ensemble made with the
+  // same arguments. Throws ArchiveError.
+  void archive(Archive& archive);
+
   // Image, number of mutations, mean luminance and statistics of all so far; changes nothing.
   RenderResult result() const;
 

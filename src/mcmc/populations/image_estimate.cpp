@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mcmc/populations/image_estimate.h"
 
+#include "render/core/archive.h"
 #include "render/core/index.h"
 #include "render/integrator/parallel_rounds.h"
 
@@ -87,6 +88,10 @@ void ImageEstimate::endStretch() {
     mutations_ += stretch_.mutations;
   }
   stretch_ = {};
+}
+
+void ImageEstimate::archive(Archive& archive) {
+  archive(statesFilm_, samplesFilm_, stretch_, epoch_, states_, samples_, mutations_);
 }
 
 Image ImageEstimate::image(double luminance) const {

@@ -48,6 +48,9 @@ class ImageEstimate {
   void begin();
   void end();
 
+  // All that was added, between two rounds.
+  void archive(Archive& archive);
+
   // The picture so far, if the mean luminance is known to be this.
   Image image(double luminance) const;
   // The present epoch's picture by either half, in the measured rows.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/core/archive.h"
 #include "render/core/index.h"
 #include "render/core/random.h"
 #include "render/integrator/path_integrator.h"
@@ -49,9 +50,9 @@ DirectLighting::DirectLighting(const Scene& scene, const OptionSet& options,
       longest_(std::min(kLongest, maxPathLength(options))),
       step_(measuredRows(scene.film)) {}
 
-SampleTally DirectLighting::tally() const {
-  SampleTally all = halves_[0].tally;
-  all.add(halves_[1].tally);
+SampleTally DirectLighting::tally(const std::array<Half, 2>& halves) {
+  SampleTally all = halves[0].tally;
+  all.add(halves[1].tally);
   return all;
 }
 
@@ -60,52 +61,116 @@ double DirectLighting::perPixel(const SampleTally& tally) const {
          (static_cast<double>(scene_.film.width) * scene_.film.height);
 }
 
-void DirectLighting::add(double seconds, long long samples) {
-  const double began = wallClock();
-  SampledFilm part(
+std::unique_ptr<SampledFilm> DirectLighting::makeFilm() const {
+  return std::make_unique<SampledFilm>(
       scene_,
-      [&] {
-        return makePathSampler({minDepth_, longest_});
+      [minDepth = minDepth_, longest = longest_] {
+        return makePathSampler({minDepth, longest});
       },
       step_);
-  for (int half = 0; half < 2 && !interrupted_; ++half) {
-    RoundsPlan plan;
-    plan.seconds = seconds / 2;
-    plan.unit = "samples";
-    plan.unitsPerRound = static_cast<double>(scene_.film.width) * scene_.film.height /
-                         static_cast<double>(part.roundsAPass());
-    if (samples > 0) {
-      const long long wanted = (samples + 1 - half) / 2;  // of half 0 the larger part
-      const double passes =
-          std::ceil(static_cast<double>(wanted) - perPixel(halves_[at(half)].tally));
-      if (!(passes > 0)) continue;
-      plan.rounds = std::llround(passes) * part.roundsAPass();
-    }
-    RenderRequest own;
-    // The first part has the seed that it would have alone.
-    own.seed = parts_ == 0 ? request_.seed : mixBits(mixBits(request_.seed) + parts_);
-    ++parts_;
-    own.threads = request_.threads;
-    own.stop = request_.stop;
-    own.progress = request_.progress;
-    interrupted_ = part.add(own, RenderClock(), plan, half).interrupted;
+}
+
+void DirectLighting::add(double seconds, long long samples) {
+  part_.emplace();
+  part_->seconds = seconds;
+  part_->samples = samples;
+  part_->film = makeFilm();
+  finishPart();
+}
+
+void DirectLighting::finishPart() {
+  if (!part_) return;
+  Part& part = *part_;
+  for (; part.half < 2 && !interrupted_; ++part.half, part.begun = false) addHalf(part);
+  const double began = wallClock();
+  sums_ = with(std::move(sums_), part);
+  seconds_ += part.allSeconds + wallClock() - began;
+  part_.reset();
+}
+
+void DirectLighting::addHalf(Part& part) {
+  const Half& half = sums_.halves[at(part.half)];
+  RoundsPlan plan;
+  plan.seconds = part.seconds / 2;
+  plan.unit = "samples";
+  plan.unitsPerRound = static_cast<double>(scene_.film.width) * scene_.film.height /
+                       static_cast<double>(part.film->roundsAPass());
+  if (part.samples > 0) {
+    const long long wanted = (part.samples + 1 - part.half) / 2;  // of half 0 the larger part
+    const double passes = std::ceil(static_cast<double>(wanted) - perPixel(half.tally));
+    if (!(passes > 0)) return;
+    plan.rounds = std::llround(passes) * part.film->roundsAPass();
   }
-  const double had = static_cast<double>(tally().samples);
+  if (!part.begun) {
+    // The first part has the seed that it would have alone.
+    part.seed = parts_ == 0 ? request_.seed : mixBits(mixBits(request_.seed) + parts_);
+    ++parts_;
+    part.begun = true;
+    part.rounds = 0;
+    part.halfSeconds = 0;
+  }
+  RenderRequest own;
+  own.seed = part.seed;
+  own.threads = request_.threads;
+  own.stop = request_.stop;
+  own.progress = request_.progress;
+  plan.begin = part.rounds;
+  RenderClock clock;
+  clock.advance(part.halfSeconds, 0);
+  partClock_ = &clock;
+  const double before = part.allSeconds - part.halfSeconds;
+  const auto look = [&] {
+    part.halfSeconds = clock.wallSeconds();
+    part.allSeconds = before + part.halfSeconds;
+  };
+  plan.watch = [&](long long rounds) {
+    part.rounds = rounds;
+    look();
+    if (watch_) watch_();
+  };
+  interrupted_ = part.film->add(own, clock, plan, part.half).interrupted;
+  look();
+  partClock_ = nullptr;
+}
+
+void DirectLighting::pause(const std::function<void()>& work) {
+  if (partClock_)
+    partClock_->exclude(work);
+  else
+    work();
+}
+
+DirectLighting::Sums DirectLighting::with(Sums sums, const Part& part) const {
+  const double had = static_cast<double>(tally(sums.halves).samples);
   for (int half = 0; half < 2; ++half) {
-    Half& own = halves_[at(half)];
+    Half& own = sums.halves[at(half)];
     const double before = static_cast<double>(own.tally.samples);
-    own.tally.add(part.tally(half));
+    own.tally.add(part.film->tally(half));
     const double now = static_cast<double>(own.tally.samples);
     if (!(now > before)) continue;
-    const Image rows = part.film().developHalf(half, 1 / now);
+    const Image rows = part.film->film().developHalf(half, 1 / now);
     mix(own.rows, rows.width, rows.height, before, now,
         [&](int x, int y) { return rows.at(x, y); });
   }
-  const double all = static_cast<double>(tally().samples);
+  const double all = static_cast<double>(tally(sums.halves).samples);
   if (all > had)
-    mix(image_, scene_.film.width, scene_.film.height, had, all,
-        [&](int x, int y) { return part.film().pixel(x, y, 1 / all); });
-  seconds_ += wallClock() - began;
+    mix(sums.image, scene_.film.width, scene_.film.height, had, all,
+        [&](int x, int y) { return part.film->film().pixel(x, y, 1 / all); });
+  return sums;
+}
+
+void DirectLighting::archive(Archive& archive) {
+  archive(renderSeconds_, perSample_, perMutation_, parts_, sums_.halves, sums_.image, seconds_);
+  bool under = part_.has_value();
+  archive(under);
+  if (!under) return;
+  if (archive.reading()) {
+    part_.emplace();
+    part_->film = makeFilm();
+  }
+  Part& part = *part_;
+  archive(part.seconds, part.samples, part.half, part.begun, part.seed, part.rounds,
+          part.halfSeconds, part.allSeconds, *part.film);
 }
 
 void DirectLighting::extendTo(double renderSeconds, long long mutationsPerPixel) {
@@ -126,8 +191,8 @@ void DirectLighting::extendTo(double renderSeconds, long long mutationsPerPixel)
 }
 
 void DirectLighting::measure(const TwoEstimates& chains, int cell) {
-  const TwoEstimates own{halves_[0].rows, halves_[1].rows, perPixel(halves_[0].tally),
-                         perPixel(halves_[1].tally)};
+  const TwoEstimates own{sums_.halves[0].rows, sums_.halves[1].rows,
+                         perPixel(sums_.halves[0].tally), perPixel(sums_.halves[1].tally)};
   const std::vector<double> weights =
       relativeWeights(own.mean(), chains.mean(), cell, std::max(1, cell / step_));
   perSample_ = varianceOfOneSample(own, weights);
@@ -160,12 +225,16 @@ void DirectLighting::balance(const Standing& now) {
 
 void DirectLighting::addTo(RenderResult& result) const {
   if (result.image.pixels.empty()) result.image = Image(scene_.film.width, scene_.film.height);
-  for (std::size_t i = 0; i < image_.pixels.size(); ++i) result.image.pixels[i] += image_.pixels[i];
-  const SampleTally all = tally();
+  const Sums more = part_ ? with(sums_, *part_) : Sums();
+  const Sums& sums = part_ ? more : sums_;
+  for (std::size_t i = 0; i < sums.image.pixels.size(); ++i)
+    result.image.pixels[i] += sums.image.pixels[i];
+  const SampleTally all = tally(sums.halves);
   result.meanLuminance += all.meanLuminance();
   result.meanLuminanceError = std::hypot(result.meanLuminanceError, all.meanLuminanceError());
   result.interrupted |= interrupted_;
-  result.statistics["direct lighting"] = sampleStatistics(scene_, all, seconds_);
+  result.statistics["direct lighting"] =
+      sampleStatistics(scene_, all, seconds_ + (part_ ? part_->allSeconds : 0));
 }
 
 }  // namespace h2mc

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <optional>
 
 #include "mcmc/render/noise.h"
 #include "render/integrator/sampling_integrator.h"
@@ -21,11 +23,19 @@ class DirectLighting {
   // Keeps references.
   DirectLighting(const Scene& scene, const OptionSet& options, const RenderRequest& request);
 
+  // To be called after each round of samples; null: nothing is.
+  void setWatch(std::function<void()> watch) { watch_ = std::move(watch); }
+  // All that was made; in a call of the watch too. After reading, finishPart() completes what was under way then.
+  void archive(Archive& archive);
+  void finishPart();
+  // Calls work() without counting its time; in a call of the watch.
+  void pause(const std::function<void()>& work);
+
   // Whether it is split off from the chains at all.
   bool wanted() const { return wanted_ != 0 && minDepth_ <= longest_; }
   bool interrupted() const { return interrupted_; }
   // In the scene's units; empty before the first sample.
-  const Image& image() const { return image_; }
+  const Image& image() const { return sums_.image; }
 
   // Brings it up to the least that a render of so many seconds, or of so many mutations a pixel,
   // gets. Both may only grow from call to call.
@@ -64,11 +74,32 @@ class DirectLighting {
   struct Half {
     SampleTally tally;
     Image rows;  // its own picture, in the measured rows
+    void archive(Archive& archive) { archive(tally, rows); }
+  };
+  // What add() is about to add.
+  struct Part {
+    double seconds = 0;
+    long long samples = 0;
+    int half = 0;        // that gets samples now
+    bool begun = false;  // of that half
+    std::uint64_t seed = 0;
+    long long rounds = 0;                    // of that half, made
+    double halfSeconds = 0, allSeconds = 0;  // spent on it, and on the whole part
+    std::unique_ptr<SampledFilm> film;
+  };
+  struct Sums {
+    std::array<Half, 2> halves;
+    Image image;
   };
   // More samples, half of them in each half: until there are so many a pixel, and so many seconds are over; 0:
   // the other is the only limit.
   void add(double seconds, long long samples);
-  SampleTally tally() const;
+  std::unique_ptr<SampledFilm> makeFilm() const;
+  void addHalf(Part& part);
+  // The sums, with the part's samples.
+  Sums with(Sums sums, const Part& part) const;
+  static SampleTally tally(const std::array<Half, 2>& halves);
+  SampleTally tally() const { return tally(sums_.halves); }
   // A pixel; no whole numbers where the time was short.
   double perPixel(const SampleTally& tally) const;
 
@@ -78,10 +109,12 @@ class DirectLighting {
   double renderSeconds_ = 0;                // of renders so far
   double perSample_ = 0, perMutation_ = 0;  // measured variances
   std::uint64_t parts_ = 0;                 // a seed each
-  std::array<Half, 2> halves_;
-  Image image_;
+  Sums sums_;
+  std::optional<Part> part_;
   double seconds_ = 0;
   bool interrupted_ = false;
+  std::function<void()> watch_;
+  RenderClock* partClock_ = nullptr;  // of the samples that are being made
 };
 
 // The number of samples for each mutation that makes perSample / samples + perMutation / mutations

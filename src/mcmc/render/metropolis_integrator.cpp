@@ -9,14 +9,23 @@
 
 #include "mcmc/populations/ensemble.h"
 #include "mcmc/render/direct_lighting.h"
+#include "render/core/archive.h"
 #include "render/integrator/common_options.h"
 #include "render/integrator/parallel_rounds.h"
 
 namespace h2mc {
 namespace {
 
-// Mutations of a chain in one round: a round of all chains takes some hundredths of a second.
-constexpr long long kRound = 32;
+// Mutations of a chain in one round, so that one of all chains takes some hundredths of a second: a power of two, at
+// most this many, and of all chains at most that many.
+constexpr long long kMostARound = 32, kMostOfAll = 1 << 20;
+static_assert(Chain::kDerivedAnew % kMostARound == 0);
+
+long long roundOf(long long chains) {
+  long long round = kMostARound;
+  while (round > 1 && round * chains > kMostOfAll) round /= 2;
+  return round;
+}
 
 // Bootstrap samples, unless the options say: a share of the time, or of the mutations, between these. A
 // sample much brighter than the mean holds its share of the chains for longer than most renders take; the
@@ -25,7 +34,7 @@ constexpr long long kLeastBootstrap = 100000, kMostBootstrap = 4000000;
 constexpr double kBootstrapOfTime = 0.04, kBootstrapOfMutations = 0.02;
 
 // One render: direct lighting and the chains take turns.
-class MetropolisRender {
+class MetropolisRender final : public RenderInProgress {
  public:
   MetropolisRender(const MetropolisMethod& method, const OptionSet& options, int maxLength,
                    const Scene& scene, const RenderRequest& request)
@@ -37,19 +46,36 @@ class MetropolisRender {
         directRequest_(directRequest()),
         direct_(scene, options, directRequest_),
         minLength_(split() ? DirectLighting::kLongest + 1 : options.integer("minDepth")),
-        maxLength_(maxLength) {}
+        maxLength_(maxLength),
+        round_(roundOf(options.integer("chains"))) {
+    if (request_.watch) direct_.setWatch([this] { look(); });
+  }
   MetropolisRender(const MetropolisRender&) = delete;
   MetropolisRender& operator=(const MetropolisRender&) = delete;
 
   RenderResult run();
 
+  RenderResult result() const override;
+  bool isExact() const override;
+  bool isOver() const override { return over_; }
+  void save(Archive& archive) override;
+  void pause(const std::function<void()>& work) override;
+
  private:
+  // What it is at: the first direct light, the chains, or direct light between two of their epochs.
+  enum class Stage : int { kDirect, kChains, kBetweenEpochs };
+
   bool timed() const { return request_.budget.seconds > 0; }
   bool stopped() const { return request_.stop && *request_.stop; }
   // Whether direct lighting is left out of the chains.
   bool split() const { return direct_.wanted(); }
   double pixels() const { return static_cast<double>(scene_.film.width) * scene_.film.height; }
 
+  // Of a chain in the present round.
+  long long roundNow() const {
+    const long long left = round_ - stepsDone_ % round_;
+    return stepsPerChain_ > 0 ? std::min(left, stepsPerChain_ - stepsDone_) : left;
+  }
   // 0 where seconds are the only limit.
   long long mutationBudget() const {
     const RenderBudget& budget = request_.budget;
@@ -62,11 +88,16 @@ class MetropolisRender {
   void extendDirect(std::size_t mark);
   void balanceDirect(const ChainEnsemble& chains);
   void endEpoch(ChainEnsemble& chains);
+  void beginEpoch(ChainEnsemble& chains);
   void atMark(std::size_t mark, const std::function<RenderResult()>& result);
   RoundsPlan plan(ChainEnsemble& chains);
   RenderResult directAlone();
   RenderResult withChains();
-  RenderResult finished(RenderResult result);
+  RenderResult finished(RenderResult result) const;
+  void look() { request_.watch(*this); }
+  void lookLast();
+  // What save() writes but for the chains.
+  void archiveRender(Archive& archive);
   void countNotFinite(nlohmann::json& statistics) const;
 
   RenderClock clock_;
@@ -78,8 +109,16 @@ class MetropolisRender {
   const RenderRequest directRequest_;
   DirectLighting direct_;
   std::optional<Bootstrap> bootstrap_;
+  std::optional<ChainEnsemble> chains_;
   const int minLength_, maxLength_;  // of the chains' paths
+  const long long round_;            // mutations of a chain
   long long stepsPerChain_ = 0;      // 0: by time
+  long long stepsDone_ = 0;          // of each chain
+  Stage stage_ = Stage::kDirect;
+  long long bootstrapCount_ = 0;  // samples that were to be made
+  bool inexact_ = false;          // the stop flag was set before the chains began
+  bool restored_ = false;         // chains go on from an archive
+  bool over_ = false;
   std::size_t nextMark_ = 0;
   double chainsBegan_ = 0, directBefore_ = 0;  // seconds of the clock, seconds of direct_ by then
 };
@@ -87,6 +126,8 @@ class MetropolisRender {
 RenderRequest MetropolisRender::directRequest() const {
   RenderRequest r = request_;
   r.progress = nullptr;
+  r.watch = nullptr;
+  r.resume = nullptr;
   if (request_.progress && timed())
     r.progress = [this](const RenderProgress& own) {
       const double now = clock_.wallSeconds();
@@ -134,8 +175,14 @@ void MetropolisRender::balanceDirect(const ChainEnsemble& chains) {
 void MetropolisRender::endEpoch(ChainEnsemble& chains) {
   if (split()) direct_.measure(chains.halves(), chains.cell());
   chains.endEpoch();
+  stage_ = Stage::kBetweenEpochs;
   if (split()) balanceDirect(chains);
+  beginEpoch(chains);
+}
+
+void MetropolisRender::beginEpoch(ChainEnsemble& chains) {
   chains.nextEpoch(split() ? &direct_.image() : nullptr);
+  stage_ = Stage::kChains;
 }
 
 void MetropolisRender::atMark(std::size_t mark, const std::function<RenderResult()>& result) {
@@ -144,7 +191,7 @@ void MetropolisRender::atMark(std::size_t mark, const std::function<RenderResult
   extendDirect(nextMark_);
 }
 
-RenderResult MetropolisRender::finished(RenderResult result) {
+RenderResult MetropolisRender::finished(RenderResult result) const {
   result.sampleUnit = "mutations";
   if (split()) direct_.addTo(result);
   if (result.image.pixels.empty()) result.image = Image(scene_.film.width, scene_.film.height);
@@ -174,6 +221,7 @@ void MetropolisRender::countNotFinite(nlohmann::json& statistics) const {
 RenderResult MetropolisRender::directAlone() {
   for (std::size_t mark = 0; mark < request_.marks.size() && !direct_.interrupted(); ++mark)
     atMark(mark, [] { return RenderResult(); });
+  lookLast();
   RenderResult none;
   none.interrupted = stopped();
   return finished(none);
@@ -182,7 +230,12 @@ RenderResult MetropolisRender::directAlone() {
 RoundsPlan MetropolisRender::plan(ChainEnsemble& chains) {
   RoundsPlan plan;
   plan.unit = "mutations";
-  plan.unitsPerRound = static_cast<double>(chains.chains()) * kRound;
+  plan.unitsPerRound = static_cast<double>(chains.chains() * round_);
+  plan.begin = stepsDone_ / round_;
+  if (request_.watch) {
+    plan.watch = [this](long long) { look(); };
+    plan.roundsAPass = Chain::kDerivedAnew / round_;
+  }
   if (timed()) {
     plan.seconds = request_.budget.seconds;
     plan.marks = request_.marks;
@@ -190,14 +243,18 @@ RoundsPlan MetropolisRender::plan(ChainEnsemble& chains) {
     const auto steps = [&](double perPixel) { return perPixel * pixels() / chains.chains(); };
     stepsPerChain_ =
         static_cast<long long>(std::ceil(steps(static_cast<double>(mutationsPerPixel_))));
-    plan.rounds = (stepsPerChain_ + kRound - 1) / kRound;
-    for (const double mark : request_.marks) plan.marks.push_back(steps(mark) / kRound);
+    plan.rounds = (stepsPerChain_ + round_ - 1) / round_;
+    for (const double mark : request_.marks)
+      plan.marks.push_back(steps(mark) / static_cast<double>(round_));
   }
   plan.atMark = [&](std::size_t mark, const RoundsResult&) {
     atMark(mark, [&] { return chains.result(); });
     if (split()) balanceDirect(chains);
   };
-  plan.endOfRound = [&] { chains.endRound(); };
+  plan.endOfRound = [&] {
+    chains.endRound();
+    stepsDone_ += roundNow();
+  };
   plan.betweenRounds = [&] {
     if (chains.epochIsOver()) endEpoch(chains);
   };
@@ -206,15 +263,26 @@ RoundsPlan MetropolisRender::plan(ChainEnsemble& chains) {
 
 RenderResult MetropolisRender::withChains() {
   const bool stoppedEarly = stopped();  // while direct light or the bootstrap was made
-  ChainEnsemble chains(scene_, method_, options_, *bootstrap_, minLength_, maxLength_, request_);
+  inexact_ = stoppedEarly;
+  ChainEnsemble& chains =
+      chains_.emplace(scene_, method_, options_, *bootstrap_, minLength_, maxLength_, request_);
+  if (restored_) {
+    (*request_.resume)(chains);
+    direct_.finishPart();
+    if (stage_ == Stage::kBetweenEpochs) beginEpoch(chains);
+    extendDirect(0);
+  }
+  stage_ = Stage::kChains;
   const RoundsPlan rounds = plan(chains);
-  chainsBegan_ = clock_.wallSeconds();
-  directBefore_ = direct_.seconds();
-  const RoundsResult done =
-      runRounds(request_, clock_, chains.groups(), rounds, [&](int group, long long round) {
-        chains.run(group,
-                   stepsPerChain_ > 0 ? std::min(kRound, stepsPerChain_ - round * kRound) : kRound);
-      });
+  if (!restored_) {
+    chainsBegan_ = clock_.wallSeconds();
+    directBefore_ = direct_.seconds();
+  }
+  RoundsResult done;
+  if (stepsPerChain_ == 0 || stepsDone_ < stepsPerChain_)
+    done = runRounds(request_, clock_, chains.groups(), rounds,
+                     [&](int group, long long) { chains.run(group, roundNow()); });
+  lookLast();
   chains.endEpoch();
   RenderResult result = chains.result();
   result.interrupted = done.interrupted || stoppedEarly;
@@ -222,18 +290,56 @@ RenderResult MetropolisRender::withChains() {
 }
 
 RenderResult MetropolisRender::run() {
-  extendDirect(0);
+  if (request_.resume) archiveRender(*request_.resume);
+  restored_ = stage_ != Stage::kDirect;
+  if (stage_ == Stage::kDirect) {
+    direct_.finishPart();
+    extendDirect(0);
+  }
   if (minLength_ > maxLength_) return directAlone();
   const int wanted = options_.integer("bootstrapSamples");
   const double before = clock_.wallSeconds();
   bootstrap_.emplace(scene_, minLength_, maxLength_, wanted > 0 ? wanted : kLeastBootstrap,
                      request_.seed, request_.threads, request_.stop);
-  if (wanted == 0) bootstrap_->extendTo(bootstrapSamples(clock_.wallSeconds() - before));
+  if (!restored_)
+    bootstrapCount_ = wanted > 0 ? wanted : bootstrapSamples(clock_.wallSeconds() - before);
+  bootstrap_->extendTo(bootstrapCount_);
   if (bootstrap_->luminance().mean() > 0) return withChains();
   if (!stopped())
     spdlog::warn("no light arrives through paths of {} to {} edges: nothing to sample there",
                  minLength_, maxLength_);
   return directAlone();
+}
+
+// What there is, whatever stage it is at.
+RenderResult MetropolisRender::result() const {
+  return finished(chains_ ? chains_->result() : RenderResult());
+}
+
+// Direct light that was cut short has another number of samples than it would have had.
+bool MetropolisRender::isExact() const {
+  return !inexact_ && !direct_.interrupted() &&
+         (stage_ != Stage::kChains || stepsDone_ % Chain::kDerivedAnew == 0);
+}
+
+void MetropolisRender::pause(const std::function<void()>& work) {
+  clock_.exclude([&] { direct_.pause(work); });
+}
+
+void MetropolisRender::lookLast() {
+  over_ = true;
+  if (request_.watch) look();
+}
+
+void MetropolisRender::archiveRender(Archive& archive) {
+  double wall = clock_.wallSeconds(), cpu = clock_.cpuSeconds();
+  archive(wall, cpu, stage_, bootstrapCount_, stepsDone_, chainsBegan_, directBefore_, direct_);
+  if (archive.reading()) clock_.advance(wall, cpu);
+}
+
+void MetropolisRender::save(Archive& archive) {
+  archiveRender(archive);
+  if (stage_ != Stage::kDirect) archive(*chains_);
 }
 
 class MetropolisIntegrator final : public Integrator {

@@ -23,6 +23,8 @@ class ImportanceMap {
   // `sampled`. Both images of the same size; 1 everywhere where they are black.
   ImportanceMap(const Image& picture, const Image& sampled, int cell);
 
+  void archive(Archive& archive) { archive(columns_, rows_, perX_, perY_, values_); }
+
   // At a film position in [0,1)^2, interpolated between the cells' centres.
   float operator()(float filmX, float filmY) const {
     return values_.empty() ? 1.f : interpolate(filmX, filmY);

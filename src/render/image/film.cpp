@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "render/core/archive.h"
+
 namespace h2mc {
 namespace {
 
@@ -163,6 +165,15 @@ void BasicFilm<Real>::release() {
 template <class Real>
 void BasicFilm<Real>::reserve() {
   pixels_ = ZeroedArray<Accumulator>(pixelCount());
+}
+
+template <class Real>
+void BasicFilm<Real>::archive(Archive& archive) {
+  const std::size_t sizes[] = {pixelCount(), halves_[0].size(), halves_[1].size()};
+  archive(pixels_, halves_[0], halves_[1]);
+  if ((pixels_.size() != 0 && pixels_.size() != sizes[0]) || halves_[0].size() != sizes[1] ||
+      halves_[1].size() != sizes[2])
+    throw ArchiveError("it has another number of pixels");
 }
 
 // What the sum in a pixel is to be multiplied with.

@@ -12,6 +12,8 @@
 
 namespace h2mc {
 
+class Archive;
+
 // Rows begin .. end - 1 of a film.
 struct RowRange {
   int begin = 0, end = 0;
@@ -63,6 +65,9 @@ class BasicFilm {
   Rgbf pixel(int x, int y, double scale) const;
   // The rows 0, step, 2 * step, .. of the picture that a half makes by itself, grey.
   Image developHalf(int half, double scale) const;
+
+  // What was added. Throws ArchiveError where it was to a film of another size.
+  void archive(Archive& archive);
 
   const FilmSettings& settings() const { return settings_; }
   int width() const { return settings_.width; }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "render/core/archive.h"
 #include "render/core/index.h"
 #include "render/core/types.h"
 
@@ -18,6 +19,7 @@ struct Image {
   Image() = default;
   Image(int w, int h) : width(w), height(h), pixels(static_cast<std::size_t>(w) * h, Rgbf(0)) {}
   Rgbf& at(int x, int y) { return pixels[h2mc::at(y) * width + x]; }
+  void archive(Archive& archive) { archive(width, height, pixels); }
   const Rgbf& at(int x, int y) const { return pixels[h2mc::at(y) * width + x]; }
 };
 

@@ -16,6 +16,7 @@
 
 namespace h2mc {
 
+class Archive;
 struct Scene;
 
 // How long to render; all zero means the integrator's own default. Where a time and a number are
@@ -35,6 +36,23 @@ struct RenderProgress {
 
 struct RenderResult;
 
+// A render between two rounds, for whoever watches it.
+class RenderInProgress {
+ public:
+  virtual ~RenderInProgress() = default;
+  // What there is so far; changes nothing.
+  virtual RenderResult result() const = 0;
+  // Whether a render that goes on from save() gives, with a budget in samples or mutations, the same image as this one
+  // will, to the bit.
+  virtual bool isExact() const = 0;
+  // Whether the render is over; this is then the last call.
+  virtual bool isOver() const = 0;
+  // Writes the state. Throws ArchiveError.
+  virtual void save(Archive& archive) = 0;
+  // Calls work() without counting its time as the render's.
+  virtual void pause(const std::function<void()>& work) = 0;
+};
+
 struct RenderRequest {
   RenderBudget budget;
   // Where on the way the image is wanted too: ascending, none beyond the budget, in seconds where the
@@ -49,6 +67,12 @@ struct RenderRequest {
   std::function<void(const RenderProgress&)>
       progress;                             // called from the rendering thread; may be empty
   const std::atomic<bool>* stop = nullptr;  // set: end in order, keep what was done
+  // Called from the rendering thread after each round, and once when the render is over; may be empty. With it, an
+  // interruption waits some tenths of a second for a state that isExact().
+  std::function<void(RenderInProgress&)> watch;
+  // What save() wrote in a render of the same scene, integrator, options and seed, to go on from; null: from the
+  // beginning. The budget is that of both together and may be larger than it was. Without marks.
+  Archive* resume = nullptr;
 };
 
 struct RenderResult {

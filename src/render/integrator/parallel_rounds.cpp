@@ -93,9 +93,16 @@ void RenderClock::exclude(const std::function<void()>& work) {
   cpu_ = cpuClock() - standsCpu_;
 }
 
+void RenderClock::advance(double wallSeconds, double cpuSeconds) {
+  wall_ -= wallSeconds;
+  cpu_ -= cpuSeconds;
+}
+
 RoundsResult runRounds(const RenderRequest& request, const RenderClock& clock, int groups,
                        const RoundsPlan& plan, const std::function<void(int, long long)>& work) {
   RoundsResult result;
+  result.rounds = plan.begin;
+  const auto made = [&] { return static_cast<double>(result.rounds - plan.begin); };
   const double start = clock.wallSeconds();
   const bool timed = plan.seconds > 0;
   const auto stopped = [&] { return request.stop && request.stop->load(); };
@@ -103,18 +110,18 @@ RoundsResult runRounds(const RenderRequest& request, const RenderClock& clock, i
   const auto reached = [&](double limit) {
     const double elapsed = clock.wallSeconds();
     const double rounds = inFirstPass() ? 1 : static_cast<double>(plan.roundsAPass);
-    const double next = rounds * (elapsed - start) / static_cast<double>(result.rounds);
+    const double next = rounds * (elapsed - start) / made();
     return elapsed + std::max(next / 2, next - kLate * limit) > limit;
   };
   const auto mayEnd = [&] { return inFirstPass() || result.rounds % plan.roundsAPass == 0; };
   std::size_t mark = 0;
   while (plan.rounds == 0 || result.rounds < plan.rounds) {
     // One round at least: an interruption never leaves an empty picture.
-    if (result.rounds > 0 && mayEnd() && stopped()) {
+    if (made() > 0 && mayEnd() && stopped()) {
       result.interrupted = true;
       break;
     }
-    if (timed && result.rounds > 0 && mayEnd() && reached(plan.seconds)) break;
+    if (timed && made() > 0 && mayEnd() && reached(plan.seconds)) break;
     if (result.rounds > 0 && plan.betweenRounds) plan.betweenRounds();
     parallelFor(request.threads, groups, [&](int group) { work(group, result.rounds); });
     ++result.rounds;
@@ -125,8 +132,9 @@ RoundsResult runRounds(const RenderRequest& request, const RenderClock& clock, i
       const double fraction =
           plan.rounds > 0 ? done / static_cast<double>(plan.rounds) : now / plan.seconds;
       request.progress(
-          {std::min(fraction, 1.0), now, done * plan.unitsPerRound / (now - start), plan.unit});
+          {std::min(fraction, 1.0), now, made() * plan.unitsPerRound / (now - start), plan.unit});
     }
+    if (plan.watch) plan.watch(result.rounds);
     if (!mayEnd()) continue;
     const auto passed = [&] {
       return timed ? reached(plan.marks[mark])

@@ -22,6 +22,8 @@ class RenderClock {
   double cpuSeconds() const;
   // Calls work() without counting its time: the clock stands still meanwhile.
   void exclude(const std::function<void()>& work);
+  // As if it had been started so much earlier.
+  void advance(double wallSeconds, double cpuSeconds);
 
  private:
   double wall_, cpu_;  // when it would have been started without the exclusions
@@ -36,6 +38,7 @@ struct RoundsResult {
 
 struct RoundsPlan {
   long long rounds = 0;  // 0: until the time is up
+  long long begin = 0;   // rounds of these that were made before
   double seconds = 0;    // on the clock; 0: until the rounds are done
   // So many rounds make one pass. The first may be cut short by the time or the stop flag, later ones are
   // completed, and marks lie between them.
@@ -50,11 +53,13 @@ struct RoundsPlan {
   std::function<void()> endOfRound;
   // Called between one round and the next; may be empty.
   std::function<void()> betweenRounds;
+  // Called after each round: how many there were; may be empty.
+  std::function<void(long long rounds)> watch;
 };
 
 // Calls work(group, round) for all groups of a round in parallel, round after round, until the plan
-// is fulfilled or the request's stop flag is set. A started round is always completed: all groups
-// have done the same number of rounds when it returns.
+// is fulfilled or the request's stop flag is set. One round is made at least, if the plan has one, and a started one is
+// completed: all groups have done the same number of rounds when it returns.
 // The clock may have run before: its time counts. A time is reached where one more round, or pass, would end
 // further from it than we are now, or end later than it by more than a twentieth.
 RoundsResult runRounds(const RenderRequest& request, const RenderClock& clock, int groups,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/core/archive.h"
 #include "render/core/index.h"
 #include "render/core/unit_interval.h"
 #include "render/integrator/common_options.h"
@@ -133,6 +134,11 @@ void SampledFilm::sample(int index, long long round, std::uint64_t seed, int hal
   }
 }
 
+void SampledFilm::archive(Archive& archive) {
+  archive(film_);
+  for (Group& group : groups_) archive(group.tally[0], group.tally[1]);
+}
+
 RoundsResult SampledFilm::add(const RenderRequest& request, const RenderClock& clock,
                               RoundsPlan plan, int half) {
   const int bands = bandCount(request.threads, film_.height());
@@ -146,6 +152,44 @@ RoundsResult SampledFilm::add(const RenderRequest& request, const RenderClock& c
                      groups_[at(group)].splats.sort(film_, bands);
                    });
 }
+
+namespace {
+
+// A render by samples, between two rounds.
+class SamplesInProgress final : public RenderInProgress {
+ public:
+  SamplesInProgress(const Scene& scene, SampledFilm& sampled, RenderClock& clock)
+      : scene_(scene), sampled_(sampled), clock_(clock) {}
+
+  void setStanding(const RoundsResult& rounds, bool over) {
+    rounds_ = rounds;
+    over_ = over;
+  }
+  RenderResult result() const override { return resultOf(scene_, sampled_, clock_, rounds_); }
+  bool isExact() const override { return true; }
+  bool isOver() const override { return over_; }
+  void pause(const std::function<void()>& work) override { clock_.exclude(work); }
+  void save(Archive& archive) override {
+    double wall = clock_.wallSeconds(), cpu = clock_.cpuSeconds();
+    archive(wall, cpu, rounds_.rounds, sampled_);
+  }
+  // Returns how many rounds were made.
+  long long resume(Archive& archive) {
+    double wall = 0, cpu = 0;
+    archive(wall, cpu, rounds_.rounds, sampled_);
+    clock_.advance(wall, cpu);
+    return rounds_.rounds;
+  }
+
+ private:
+  const Scene& scene_;
+  SampledFilm& sampled_;
+  RenderClock& clock_;
+  RoundsResult rounds_;
+  bool over_ = false;
+};
+
+}  // namespace
 
 RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
                            int defaultSamplesPerPixel, const MakeSampler& makeSampler) {
@@ -166,7 +210,15 @@ RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
   plan.atMark = [&](std::size_t mark, const RoundsResult& rounds) {
     clock.exclude([&] { request.atMark(mark, resultOf(scene, sampled, clock, rounds)); });
   };
+  SamplesInProgress progress(scene, sampled, clock);
+  if (request.resume) plan.begin = progress.resume(*request.resume);
+  const auto watch = [&](const RoundsResult& rounds, bool over) {
+    progress.setStanding(rounds, over);
+    request.watch(progress);
+  };
+  if (request.watch) plan.watch = [&](long long rounds) { watch({rounds, false}, false); };
   const RoundsResult rounds = sampled.add(request, clock, plan);
+  if (request.watch) watch(rounds, true);
   return resultOf(scene, sampled, clock, rounds);
 }
 

@@ -51,6 +51,9 @@ class SampledFilm {
   RoundsResult add(const RenderRequest& request, const RenderClock& clock, RoundsPlan plan,
                    int half = 0);
 
+  // What was added, between two rounds.
+  void archive(Archive& archive);
+
   const Film& film() const { return film_; }
   SampleTally tally(int half) const;
 

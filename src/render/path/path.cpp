@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "render/core/archive.h"
 #include "render/core/index.h"
 #include "render/geometry/ray_tracer.h"
 #include "render/path/path_steps.h"
@@ -296,6 +297,14 @@ bool joinPath(const Scene& scene, Path& path, bool cast) {
 Joined join(const Scene& scene, const Ends& ends) { return joinEnds(scene, ends, true); }
 bool joinSubpaths(const Scene& scene, Path& path) { return joinPath(scene, path, true); }
 bool joinVisible(const Scene& scene, Path& path) { return joinPath(scene, path, false); }
+
+void Path::archive(Archive& archive) {
+  const std::size_t sizes[] = {camera.size(), light.size()};
+  archive(technique, sample, camera, light, lightIndex, lightPrimitive, escaped, lastRay, wraps,
+          moving, filmX, filmY, contribution, target, finite);
+  if (camera.size() != sizes[0] || light.size() != sizes[1])
+    throw ArchiveError("it has paths of another length");
+}
 
 bool tracePath(const Scene& scene, Path& path) {
   path.contribution = Rgbf(0);

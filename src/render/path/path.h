@@ -10,6 +10,8 @@
 
 namespace h2mc {
 
+class Archive;
+
 struct TracedVertex {
   PathVertex<float> vertex;
   PrimitiveId id;
@@ -40,6 +42,8 @@ struct Path {
   Rgbf contribution{0};  // MIS weighted, over the technique's density in its primary space
   float target = 0;      // luminance of the contribution; what a chain samples in proportion to
   bool finite = true;    // false: not finite, or negative; contribution and target are then zero
+
+  void archive(Archive& archive);
 
   // Continuous coordinates that it depends on: the technique's, then time where it is `moving`.
   int dimension() const { return technique.dimension() + (moving ? 1 : 0); }

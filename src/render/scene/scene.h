@@ -29,6 +29,7 @@ struct Scene {
   Scene& operator=(Scene&&) noexcept;
 
   std::string file;  // the scene file's path as given
+  std::vector<std::string> files;  // all that were read, this one among them
   Camera camera;
   FilmSettings film;
   std::vector<Shape> shapes;

@@ -240,6 +240,7 @@ std::unique_ptr<SceneDocument> loadSceneDocument(
   document->folder = folderOf(file);
   Loader loader(*document, defines);
   document->root = loader.load(file, {});
+  document->files.insert(file);
   if (document->root.name != "scene")
     throw sourceError(document->root.place(),
                       "the outermost element is <" + document->root.name + ">",
@@ -276,7 +277,10 @@ std::string resolveFile(const SceneDocument& document, const XmlElement& element
   }
   std::error_code code;
   for (const std::string& path : candidates)
-    if (fs::exists(path, code) && !fs::is_directory(path, code)) return path;
+    if (fs::exists(path, code) && !fs::is_directory(path, code)) {
+      document.files.insert(path);
+      return path;
+    }
 
   // What there is beside it.
   const std::string folder = folderOf(candidates[0]);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,11 +16,12 @@ struct SceneDocument {
   std::map<std::string, const XmlElement*, std::less<>> ids;  // into root
   std::map<std::string, std::string, std::less<>> aliases;    // another id -> id
   std::vector<std::string> searchFolders;                     // from <path>, "" or ending in /
-  std::string folder;                // of the scene file, "" or ending in /
-  bool incomplete = false;           // an <include> failed, so ids may be missing
-  std::vector<SceneError> problems;  // what was wrong on the way: for the reader to say
-  std::vector<StrayText> strays;     // text that belongs to nothing
-  std::vector<SourcePlace> spoilt;   // attributes whose value is wrong for one of these
+  std::string folder;                   // of the scene file, "" or ending in /
+  bool incomplete = false;              // an <include> failed, so ids may be missing
+  std::vector<SceneError> problems;     // what was wrong on the way: for the reader to say
+  std::vector<StrayText> strays;        // text that belongs to nothing
+  mutable std::set<std::string> files;  // that were read, and that resolveFile() has found
+  std::vector<SourcePlace> spoilt;      // attributes whose value is wrong for one of these
 
   // The element with an id; null when there is none.
   const XmlElement* find(std::string_view id) const;
@@ -36,7 +38,7 @@ std::unique_ptr<SceneDocument> loadSceneDocument(const std::string& file,
                                                  const std::map<std::string, std::string>& defines);
 
 // The path of a file that an element names: relative to the file the element stands in, then to the
-// folders of <path>, then to the scene file. Throws SceneError when there is no such file.
+// folders of <path>, then to the scene file. Throws SceneError when there is no such file. Notes it among the document's.
 std::string resolveFile(const SceneDocument& document, const XmlElement& element,
                         std::string_view attribute);
 

@@ -267,6 +267,7 @@ Scene makeScene(SceneDocument& document, const ReadOptions& options) {
   for (const SourcePlace& place : document.spoilt) context.problems.silence(place);
   SceneReader(context, options).read();
   context.problems.throwIfAny();
+  scene.files.assign(document.files.begin(), document.files.end());
   keepUsedMaterials(scene);
   scene.finish();
   return scene;

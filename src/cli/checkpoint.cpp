@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "cli/checkpoint.h"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <filesystem>
+#include <vector>
+
+#include "cli/commands.h"
+#include "h2mc_version.h"
+#include "render/core/index.h"
+#include "render/image/atomic_file.h"
+#include "render/scene/scene.h"
+
+namespace h2mc {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// The file: this, the identity as JSON, the render's state, all as Archive writes it, and the CRC-32 of all before.
+constexpr std::string_view kMagic = "h2mc checkpoint 1\n";
+
+// CRC-32 of the first `size` bytes; 0 and a failed stream if there are fewer.
+std::uint32_t checksumOf(std::istream& stream, std::uint64_t size) {
+  std::vector<char> block(1 << 20);
+  uLong sum = 0;
+  while (size > 0) {
+    const auto now = std::min<std::uint64_t>(size, block.size());
+    if (!stream.read(block.data(), static_cast<std::streamsize>(now))) return 0;
+    sum = crc32_z(sum, reinterpret_cast<const unsigned char*>(block.data()), now);
+    size -= now;
+  }
+  return static_cast<std::uint32_t>(sum);
+}
+
+// Each file's name as the scene has it, and the CRC-32 of what is in it.
+json contentsOf(const std::vector<std::string>& files) {
+  json contents = json::object();
+  for (const std::string& file : files) {
+    std::ifstream stream(file, std::ios::binary);
+    std::error_code error;
+    const std::uint64_t size = fs::file_size(file, error);
+    const std::uint32_t sum = error ? 0 : checksumOf(stream, size);
+    if (error || !stream) throw InputError("cannot read \"" + file + "\"");
+    contents[file] = fmt::format("{:08x}", sum);
+  }
+  return contents;
+}
+
+std::string plain(const json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+// What the two say otherwise, for a person.
+std::vector<std::string> differences(const json& there, const json& here) {
+  std::vector<std::string> found;
+  const auto compare = [&](const json& a, const json& b, const std::string& what) {
+    for (const auto& [name, value] : b.items()) {
+      const json other = a.value(name, json());
+      if (other == value || value.is_object()) continue;
+      found.push_back(fmt::format("{}{} is {} there and {} here", what, name,
+                                  other.is_null() ? "missing" : plain(other), plain(value)));
+    }
+  };
+  compare(there, here, "");
+  compare(there["options"], here["options"], "option ");
+  const json &old = there["files"], &now = here["files"];
+  for (const auto& [file, sum] : now.items())
+    if (!old.contains(file))
+      found.push_back("\"" + file + "\" is not among its files");
+    else if (old[file] != sum)
+      found.push_back("\"" + file + "\" has changed");
+  for (const auto& [file, sum] : old.items())
+    if (!now.contains(file)) found.push_back("it has read \"" + file + "\" too");
+  return found;
+}
+
+}  // namespace
+
+json identityOf(const Scene& scene, const OptionSet& integrator, std::uint64_t seed) {
+  json options = json::object();
+  // The budget, where no other is given.
+  for (const auto& [name, value] : integrator.values())
+    if (name != "mutationsPerPixel" && name != "samplesPerPixel") options[name] = value;
+  return {{"program version", H2MC_VERSION_STRING},
+          {"files", contentsOf(scene.files)},
+          {"width", scene.film.width},
+          {"height", scene.film.height},
+          {"integrator", integrator.integrator()},
+          {"options", options},
+          {"seed", seed}};
+}
+
+bool Checkpoint::exists() const {
+  std::error_code error;
+  return fs::exists(file_, error);
+}
+
+Archive& Checkpoint::open() {
+  const auto fail = [&](const std::string& why) -> InputError {
+    return InputError("the checkpoint \"" + file_ + "\" " + why);
+  };
+  std::error_code error;
+  if (!fs::is_regular_file(file_, error)) throw fail("is not a file");
+  stream_.open(file_, std::ios::binary);
+  const std::uint64_t size = fs::file_size(file_, error);
+  std::string magic(sizeof(std::uint64_t) + kMagic.size(), '\0');
+  if (error || !stream_) throw fail("cannot be read");
+  if (!stream_.read(magic.data(), static_cast<std::streamsize>(magic.size())) ||
+      !magic.ends_with(kMagic))
+    throw fail("is not one of this program's");
+  std::uint32_t sum = 0;
+  const std::uint64_t content = size - sizeof sum;
+  stream_.seekg(0);
+  const std::uint32_t found = checksumOf(stream_, content);
+  stream_.read(reinterpret_cast<char*>(&sum), sizeof sum);
+  if (!stream_ || sum != found) throw fail("is damaged");
+  stream_.seekg(0);
+  archive_ = std::make_unique<Archive>(stream_, content);
+  std::string text;
+  (*archive_)(magic, text);
+  const json there = json::parse(text, nullptr, false);
+  if (!there.is_object()) throw fail("is damaged");
+  const std::vector<std::string> different = differences(there, identity_);
+  if (different.empty()) return *archive_;
+  std::string all;
+  for (const std::string& one : different) all += (all.empty() ? "" : "; ") + one;
+  throw fail("is of another render: " + all);
+}
+
+void Checkpoint::save(RenderInProgress& render) const {
+  AtomicFile file(file_);
+  try {
+    std::ofstream stream(file.temporaryPath(), std::ios::binary);
+    Archive archive(stream);
+    std::string magic(kMagic), text = identity_.dump();
+    archive(magic, text);
+    render.save(archive);
+    std::uint32_t sum = archive.checksum();
+    archive(sum);
+    stream.close();
+    if (!stream) throw ArchiveError("writing failed, is the disk full?");
+  } catch (const ArchiveError& e) {
+    throw std::runtime_error("cannot write \"" + file_ + "\": " + e.what());
+  }
+  file.commit();
+}
+
+}  // namespace h2mc

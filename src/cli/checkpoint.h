@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Checkpoints: the state of a render in a file, to go on from.
+#pragma once
+
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "render/core/archive.h"
+#include "render/integrator/integrator.h"
+#include "render/scene/option_set.h"
+
+namespace h2mc {
+
+// What decides on a picture but for the budget and the number of threads: program, scene with the contents of all its
+// files, size, integrator with its options, seed. Throws InputError if a file can't be read.
+nlohmann::json identityOf(const Scene& scene, const OptionSet& integrator, std::uint64_t seed);
+
+class Checkpoint {
+ public:
+  Checkpoint(std::string file, nlohmann::json identity)
+      : file_(std::move(file)), identity_(std::move(identity)) {}
+
+  const std::string& file() const { return file_; }
+  bool exists() const;
+  // Opens the file and returns where to read a render's state from, which lives as long as this does. Throws InputError
+  // if it is damaged or no checkpoint, or one of another render: then the message says what differs.
+  Archive& open();
+  // Replaces the file, whole or not at all. Throws std::runtime_error, what() being the whole message.
+  void save(RenderInProgress& render) const;
+
+ private:
+  std::string file_;
+  nlohmann::json identity_;
+  std::ifstream stream_;
+  std::unique_ptr<Archive> archive_;
+};
+
+}  // namespace h2mc

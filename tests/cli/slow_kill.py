@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Renders that are killed, and go on: a hundred times."""
+
+import os
+import random
+import subprocess
+import time
+
+import _h2mc
+
+TIMING = ("wallSeconds", "cpuSeconds", "threads")
+BUDGETS = {"path": 12000, "bdpt": 3000, "mmlt": 8000, "h2mc": 5000, "lmc": 5000, "rjmlt": 7000, "mlt": 4000}
+
+
+class Kill(_h2mc.Test):
+    def picture(self, name):
+        attributes, pixels = self.read_exr(name)
+        return {key: value for key, value in attributes.items() if key not in TIMING}, pixels
+
+    # Killed at random moments, again and again, until it is through, with another number of threads each time: the
+    # picture is that of a render to which nothing has happened.
+    def test_kill_9(self):
+        self.write("scene.xml", _h2mc.SCENE)
+        moments = random.Random(7)
+        kills = 0
+        self.assertEqual(set(BUDGETS), set(_h2mc.INTEGRATORS))
+        for integrator, budget in BUDGETS.items():
+            with self.subTest(integrator):
+                command = [_h2mc.BINARY, "render", "scene.xml", "-q", "-i", _h2mc.quick(integrator),
+                           "-s" if integrator in ("path", "bdpt") else "-m", str(budget), "-o"]
+                began = time.monotonic()
+                subprocess.run([*command, "whole.exr"], cwd=self.folder, check=True)
+                whole = time.monotonic() - began
+                for _ in range(2):
+                    kills += self.render_and_kill([*command, "a.exr"], moments, whole)
+                    self.assertEqual(self.picture("a.exr"), self.picture("whole.exr"))
+                    os.remove(self.path("a.state"))
+                    os.remove(self.path("a.exr"))
+        print("killed", kills, "times")
+        self.assertGreaterEqual(kills, 50)
+
+    def render_and_kill(self, command, moments, whole):
+        """Returns how many times it was killed."""
+        command = [*command, "--checkpoint", "a.state", "--every", "0.03", "--resume", "--threads"]
+        for attempt in range(300):
+            process = subprocess.Popen([*command, str(1 + attempt % 3)], cwd=self.folder)
+            try:
+                process.communicate(timeout=whole * (0.03 + 0.25 * moments.random()))
+                self.assertEqual(process.returncode, 0)
+                return attempt
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.communicate()
+        self.fail("it never ends")
+
+
+if __name__ == "__main__":
+    _h2mc.main()
