@@ -81,8 +81,11 @@ void ImageEstimate::endStretch() {
     const Scales by = scales(stretch_);
     forEachRow([&](int y, std::size_t i) {
       for (int x = 0; x < settings_.width; ++x, ++i) {
-        states_[i] += statesFilm_.pixel(x, y, by.states);
-        samples_[i] += samplesFilm_.pixel(x, y, by.samples);
+        // Pages that stay zero are not written to.
+        const Rgbf states = statesFilm_.pixel(x, y, by.states);
+        const Rgbf samples = samplesFilm_.pixel(x, y, by.samples);
+        if (states != Rgbf(0)) states_[i] += states;
+        if (samples != Rgbf(0)) samples_[i] += samples;
       }
     });
     mutations_ += stretch_.mutations;

@@ -24,11 +24,13 @@ constexpr double kMutationCost = 2;
 
 // The picture of n0 samples becomes that of n samples with what is to be added to n0 / n of it.
 template <class Added>
-void mix(Image& image, int width, int height, double n0, double n, const Added& added) {
+void mix(Image& image, int width, int height, int threads, double n0, double n,
+         const Added& added) {
   if (image.pixels.empty()) image = Image(width, height);
   const auto share = static_cast<float>(n0 / n);
-  for (int y = 0; y < height; ++y)
+  parallelFor(threads, height, [&](int y) {
     for (int x = 0; x < width; ++x) image.at(x, y) = image.at(x, y) * share + added(x, y);
+  });
 }
 
 }  // namespace
@@ -149,12 +151,12 @@ DirectLighting::Sums DirectLighting::with(Sums sums, const Part& part) const {
     const double now = static_cast<double>(own.tally.samples);
     if (!(now > before)) continue;
     const Image rows = part.film->film().developHalf(half, 1 / now);
-    mix(own.rows, rows.width, rows.height, before, now,
+    mix(own.rows, rows.width, rows.height, request_.threads, before, now,
         [&](int x, int y) { return rows.at(x, y); });
   }
   const double all = static_cast<double>(tally(sums.halves).samples);
   if (all > had)
-    mix(sums.image, scene_.film.width, scene_.film.height, had, all,
+    mix(sums.image, scene_.film.width, scene_.film.height, request_.threads, had, all,
         [&](int x, int y) { return part.film->film().pixel(x, y, 1 / all); });
   return sums;
 }

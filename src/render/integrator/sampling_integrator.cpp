@@ -44,15 +44,19 @@ Offset inSquare(int index, int side, std::uint64_t seed) {
   return {x % side, y % side};
 }
 
-RenderResult resultOf(const Scene& scene, const SampledFilm& sampled, const RenderClock& clock,
-                      const RoundsResult& rounds) {
+RenderResult resultOf(const Scene& scene, const SampledFilm& sampled, int threads,
+                      const RenderClock& clock, const RoundsResult& rounds) {
   RenderResult result;
   result.wallSeconds = clock.wallSeconds();
   result.cpuSeconds = clock.cpuSeconds();
   result.interrupted = rounds.interrupted;
   const SampleTally total = sampled.tally(0);
-  result.image =
-      sampled.film().develop(total.samples > 0 ? 1 / static_cast<double>(total.samples) : 0);
+  const double scale = total.samples > 0 ? 1 / static_cast<double>(total.samples) : 0;
+  result.image = Image(scene.film.width, scene.film.height);
+  parallelFor(threads, scene.film.height, [&](int y) {
+    for (int x = 0; x < scene.film.width; ++x)
+      result.image.at(x, y) = sampled.film().pixel(x, y, scale);
+  });
   result.samples = total.samples;
   result.sampleUnit = "samples";
   result.meanLuminance = total.meanLuminance();
@@ -158,14 +162,16 @@ namespace {
 // A render by samples, between two rounds.
 class SamplesInProgress final : public RenderInProgress {
  public:
-  SamplesInProgress(const Scene& scene, SampledFilm& sampled, RenderClock& clock)
-      : scene_(scene), sampled_(sampled), clock_(clock) {}
+  SamplesInProgress(const Scene& scene, SampledFilm& sampled, int threads, RenderClock& clock)
+      : scene_(scene), sampled_(sampled), threads_(threads), clock_(clock) {}
 
   void setStanding(const RoundsResult& rounds, bool over) {
     rounds_ = rounds;
     over_ = over;
   }
-  RenderResult result() const override { return resultOf(scene_, sampled_, clock_, rounds_); }
+  RenderResult result() const override {
+    return resultOf(scene_, sampled_, threads_, clock_, rounds_);
+  }
   bool isExact() const override { return true; }
   bool isOver() const override { return over_; }
   void pause(const std::function<void()>& work) override { clock_.exclude(work); }
@@ -184,6 +190,7 @@ class SamplesInProgress final : public RenderInProgress {
  private:
   const Scene& scene_;
   SampledFilm& sampled_;
+  int threads_;
   RenderClock& clock_;
   RoundsResult rounds_;
   bool over_ = false;
@@ -208,9 +215,10 @@ RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
   if (plan.seconds <= 0)
     for (double& mark : plan.marks) mark *= static_cast<double>(sampled.roundsAPass());
   plan.atMark = [&](std::size_t mark, const RoundsResult& rounds) {
-    clock.exclude([&] { request.atMark(mark, resultOf(scene, sampled, clock, rounds)); });
+    clock.exclude(
+        [&] { request.atMark(mark, resultOf(scene, sampled, request.threads, clock, rounds)); });
   };
-  SamplesInProgress progress(scene, sampled, clock);
+  SamplesInProgress progress(scene, sampled, request.threads, clock);
   if (request.resume) plan.begin = progress.resume(*request.resume);
   const auto watch = [&](const RoundsResult& rounds, bool over) {
     progress.setStanding(rounds, over);
@@ -219,7 +227,7 @@ RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
   if (request.watch) plan.watch = [&](long long rounds) { watch({rounds, false}, false); };
   const RoundsResult rounds = sampled.add(request, clock, plan);
   if (request.watch) watch(rounds, true);
-  return resultOf(scene, sampled, clock, rounds);
+  return resultOf(scene, sampled, request.threads, clock, rounds);
 }
 
 }  // namespace h2mc
