@@ -62,6 +62,9 @@ std::map<std::string, std::string> parseDefines(const std::vector<std::string>& 
 void addPermissive(CLI::App& command, bool& permissive);
 Strictness strictnessOf(bool permissive);
 
+// The option --confine of the same commands.
+void addConfine(CLI::App& command, std::string& folder);
+
 // The options --seed and --threads.
 void addSeed(CLI::App& command, std::uint64_t& seed, const std::string& description);
 void addSeed(CLI::App& command, std::optional<std::uint64_t>& seed, const std::string& description);

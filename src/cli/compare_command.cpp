@@ -249,6 +249,7 @@ void addCompareCommand(CLI::App& app, Run& run) {
   addThreads(*command, plan.threads);
   addDefines(*command, plan.defines);
   addPermissive(*command, plan.permissive);
+  addConfine(*command, plan.confine);
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but the table and errors");
   command->footer(
       "Runs come one after the other, each on all threads. Interrupted by Ctrl-C, the same "

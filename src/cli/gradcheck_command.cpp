@@ -26,7 +26,7 @@ constexpr int kDefaultMaxDepth = 8;
 constexpr std::size_t kNamed = 5;  // failures that the message names
 
 struct GradcheckOptions {
-  std::string scene, json, html, replay;
+  std::string scene, json, html, replay, confine;
   GradcheckSettings settings;
   std::optional<std::uint64_t> seed;
   std::optional<int> maxDepth;
@@ -95,6 +95,7 @@ int run(const GradcheckOptions& options) {
   read.defines = parseDefines(options.defines);
   read.strictness = strictnessOf(options.permissive);
   read.integrators = integrators;
+  read.confine = options.confine;
   const Scene scene = readScene(options.scene, read);
   if (!options.quiet) printWarnings(scene);
 
@@ -185,6 +186,7 @@ void addGradcheckCommand(CLI::App& app, Run& run_) {
   addThreads(*command, settings.threads);
   addDefines(*command, options->defines);
   addPermissive(*command, options->permissive);
+  addConfine(*command, options->confine);
   command->add_option("--json", options->json, "JSON file for everything that was found");
   command->add_option("--html", options->html, "Page with tables and plots");
   command

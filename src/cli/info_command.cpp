@@ -16,7 +16,7 @@ namespace h2mc {
 namespace {
 
 struct InfoOptions {
-  std::string scene;
+  std::string scene, confine;
   std::vector<std::string> defines;
   bool permissive = false, strict = false;
 };
@@ -145,6 +145,7 @@ int info(const InfoOptions& options) {
   read.defines = parseDefines(options.defines);
   read.strictness = options.strict ? Strictness::kStrict : strictnessOf(options.permissive);
   read.integrators = integrators;
+  read.confine = options.confine;
   const Scene scene = readScene(options.scene, read);
   printWarnings(scene);
 
@@ -167,6 +168,7 @@ void addInfoCommand(CLI::App& app, Run& run) {
   command->add_option("SCENE", options->scene, "Scene file (Mitsuba XML)")->required();
   addDefines(*command, options->defines);
   addPermissive(*command, options->permissive);
+  addConfine(*command, options->confine);
   command->add_flag("--strict", options->strict, "Take every warning for an error")
       ->excludes("--permissive");
   command->footer("What is not used, or left out because nothing needs it, is in the notes.");

@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct InspectOptions {
-  std::string scene, pixel, output, json, integrator, path = "chain", replay;
+  std::string scene, pixel, output, json, integrator, path = "chain", replay, confine;
   std::vector<std::string> defines;
   std::optional<std::uint64_t> seed;
   InspectSettings settings;
@@ -107,6 +107,7 @@ int run(const InspectOptions& options) {
   read.defines = parseDefines(options.defines);
   read.strictness = strictnessOf(options.permissive);
   read.integrators = integrators;
+  read.confine = options.confine;
   const Scene scene = readScene(options.scene, read);
   if (!options.quiet) printWarnings(scene);
   const OptionSet methodOptions = chooseIntegrator(wish, scene).options;
@@ -202,6 +203,7 @@ void addInspectCommand(CLI::App& app, Run& run_) {
   addThreads(*command, settings.threads);
   addDefines(*command, options->defines);
   addPermissive(*command, options->permissive);
+  addConfine(*command, options->confine);
   command->add_option("--json", options->json,
                       "JSON file: path, eigenvectors, proposals, and the chosen pair's slices");
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but failures");

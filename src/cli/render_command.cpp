@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RenderOptions {
-  std::string scene, output, integrator, statistics;
+  std::string scene, output, integrator, statistics, confine;
   RenderBudget budget;
   std::optional<std::uint64_t> seed;
   int threads = 0;
@@ -92,6 +92,7 @@ Scene readSceneFor(const RenderOptions& options) {
   read.defines = parseDefines(options.defines);
   read.strictness = strictnessOf(options.permissive);
   read.integrators = integrators;
+  read.confine = options.confine;
   read.width = options.width;
   read.height = options.height;
   read.scale = options.scale;
@@ -292,6 +293,7 @@ void addRenderCommand(CLI::App& app, Run& run) {
   addThreads(*command, options->threads);
   addDefines(*command, options->defines);
   addPermissive(*command, options->permissive);
+  addConfine(*command, options->confine);
   addKeepOptions(*command, options->keep);
   command->add_option("--stats", options->statistics, "JSON file to write the statistics to");
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");

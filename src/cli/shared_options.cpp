@@ -54,6 +54,15 @@ Strictness strictnessOf(bool permissive) {
   return permissive ? Strictness::kPermissive : Strictness::kByVersion;
 }
 
+void addConfine(CLI::App& command, std::string& folder) {
+  command
+      .add_option("--confine", folder,
+                  "DIR: fail where the scene refers to a file that is not below this folder once "
+                  "symbolic links are followed; for scenes from strangers")
+      ->check(CLI::ExistingDirectory)
+      ->option_text("DIR");
+}
+
 void addSeed(CLI::App& command, std::uint64_t& seed, const std::string& description) {
   command.add_option("--seed", seed, description)->check(kSeed);
 }

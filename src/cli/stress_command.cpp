@@ -24,7 +24,7 @@ constexpr int kDefaultMaxDepth = 8;
 constexpr int kDefaultWidth = 48;
 
 struct StressOptions {
-  std::string scene, json, replay;
+  std::string scene, json, replay, confine;
   StressSettings settings;
   std::optional<std::uint64_t> seed;
   int maxDepth = kDefaultMaxDepth, width = kDefaultWidth;
@@ -66,6 +66,7 @@ int run(const StressOptions& options) {
   read.defines = parseDefines(options.defines);
   read.strictness = strictnessOf(options.permissive);
   read.integrators = integrators;
+  read.confine = options.confine;
   read.width = options.width;
   if (!options.replay.empty()) return replayPath(options, read, *variations[0]);
 
@@ -177,6 +178,7 @@ void addStressCommand(CLI::App& app, Run& run_) {
       ->delimiter(',');
   addDefines(*command, options->defines);
   addPermissive(*command, options->permissive);
+  addConfine(*command, options->confine);
   command->add_option("--json", options->json, "JSON file for everything that was found");
   command
       ->add_option("--replay", options->replay,

@@ -44,6 +44,7 @@ struct ComparisonPlan {
   int width = 0, height = 0;
   double scale = 0;
   bool permissive = false;  // as ReadOptions::strictness
+  std::string confine;      // as ReadOptions has it
 
   std::string reference;            // an image, with {scene} for the scene's name, or "auto"
   std::string referenceIntegrator;  // empty: what the scene's README says, else bdpt

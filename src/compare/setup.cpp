@@ -65,6 +65,7 @@ ComparisonSetup setUp(const ComparisonPlan& plan) {
   read.width = plan.width;
   read.height = plan.height;
   read.scale = plan.scale;
+  read.confine = plan.confine;
   read.strictness = plan.permissive ? Strictness::kPermissive : Strictness::kByVersion;
   ComparisonSetup setup;
   for (const ComparedScene& scene : plan.scenes) {

@@ -79,7 +79,7 @@ std::vector<const Variation*> chooseVariations(const std::vector<std::string>& n
 
 std::optional<Scene> makeVariation(const std::string& file, const ReadOptions& options,
                                    const Variation& variation, StressSettings& settings) {
-  const auto document = loadSceneDocument(file, options.defines);
+  const auto document = loadSceneDocument(file, options.defines, options.confine);
   if (variation.change && variation.change(*document) == 0) return {};
   if (variation.maxLength > 0) settings.maxLength = variation.maxLength;
   settings.placement = variation.placement;

@@ -209,6 +209,17 @@ void collectIds(SceneDocument& document, const XmlElement& element,
   for (const XmlElement& child : element.children) collectIds(document, child, error);
 }
 
+// Whether the document may refer to a file or folder that is there, or that would be there.
+bool isAllowed(const SceneDocument& document, const std::string& path) {
+  if (document.confinedTo.empty()) return true;
+  std::error_code code;
+  const fs::path real = fs::weakly_canonical(path, code), folder = document.confinedTo;
+  if (code) return false;
+  // By components: /a/bc is not below /a/b.
+  return std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first ==
+         folder.end();
+}
+
 }  // namespace
 
 const XmlElement* SceneDocument::find(std::string_view id) const {
@@ -234,10 +245,17 @@ bool isOldVersion(const XmlElement& scene) {
          version.rfind("1.", 0) == 0;
 }
 
-std::unique_ptr<SceneDocument> loadSceneDocument(
-    const std::string& file, const std::map<std::string, std::string>& defines) {
+std::unique_ptr<SceneDocument> loadSceneDocument(const std::string& file,
+                                                 const std::map<std::string, std::string>& defines,
+                                                 const std::string& confine) {
   auto document = std::make_unique<SceneDocument>();
   document->folder = folderOf(file);
+  if (!confine.empty()) {
+    std::error_code code;
+    document->confinedTo = fs::canonical(confine, code).string();
+    if (code || !fs::is_directory(document->confinedTo, code))
+      throw SceneError(file + ": error: \"" + confine + "\" is no folder to confine the scene to");
+  }
   Loader loader(*document, defines);
   document->root = loader.load(file, {});
   document->files.insert(file);
@@ -275,15 +293,21 @@ std::string resolveFile(const SceneDocument& document, const XmlElement& element
     for (const std::string& folder : document.searchFolders) candidates.push_back(folder + name);
     candidates.push_back(document.folder + name);
   }
+  const auto outside = [&](const std::string& path) {
+    return missing("\"" + path + "\" is outside of \"" + document.confinedTo + "\"",
+                   "the scene is confined to that folder, symbolic links included");
+  };
   std::error_code code;
-  for (const std::string& path : candidates)
-    if (fs::exists(path, code) && !fs::is_directory(path, code)) {
-      document.files.insert(path);
-      return path;
-    }
+  for (const std::string& path : candidates) {
+    if (!fs::exists(path, code) || fs::is_directory(path, code)) continue;
+    if (!isAllowed(document, path)) throw outside(path);
+    document.files.insert(path);
+    return path;
+  }
 
   // What there is beside it.
   const std::string folder = folderOf(candidates[0]);
+  if (!isAllowed(document, folder.empty() ? "." : folder)) throw outside(candidates[0]);
   Names names;
   fs::directory_iterator entries(folder.empty() ? "." : folder, code);
   if (code)

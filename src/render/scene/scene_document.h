@@ -17,6 +17,7 @@ struct SceneDocument {
   std::map<std::string, std::string, std::less<>> aliases;    // another id -> id
   std::vector<std::string> searchFolders;                     // from <path>, "" or ending in /
   std::string folder;                   // of the scene file, "" or ending in /
+  std::string confinedTo;               // canonical; what the scene refers to lies below. "": anywhere
   bool incomplete = false;              // an <include> failed, so ids may be missing
   std::vector<SceneError> problems;     // what was wrong on the way: for the reader to say
   std::vector<StrayText> strays;        // text that belongs to nothing
@@ -32,10 +33,12 @@ struct SceneDocument {
 // Whether a <scene> is of a version below 2, with Mitsuba 0.6's names and customs.
 bool isOldVersion(const XmlElement& scene);
 
-// Reads the file and all it includes. `defines` give $names values that win over <default>.
+// Reads the file and all it includes. `defines` give $names values that win over <default>. Files that it
+// refers to must lie below the folder `confine` once symbolic links are followed; empty: anywhere.
 // Throws SceneError where there is no document at all; what else is wrong is in its problems.
 std::unique_ptr<SceneDocument> loadSceneDocument(const std::string& file,
-                                                 const std::map<std::string, std::string>& defines);
+                                                 const std::map<std::string, std::string>& defines,
+                                                 const std::string& confine = "");
 
 // The path of a file that an element names: relative to the file the element stands in, then to the
 // folders of <path>, then to the scene file. Throws SceneError when there is no such file. Notes it among the document's.

@@ -251,7 +251,7 @@ class SceneReader {
 }  // namespace
 
 Scene readScene(const std::string& file, const ReadOptions& options) {
-  return makeScene(*loadSceneDocument(file, options.defines), options);
+  return makeScene(*loadSceneDocument(file, options.defines, options.confine), options);
 }
 
 Scene makeScene(SceneDocument& document, const ReadOptions& options) {

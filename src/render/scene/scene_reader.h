@@ -20,6 +20,8 @@ struct ReadOptions {
   int width = 0, height = 0;
   double scale = 0;  // of width and height both; 0: none
   Strictness strictness = Strictness::kByVersion;
+  std::string
+      confine;  // the folder that files which the scene refers to must lie below; "": anywhere
 };
 
 // The scene, finished. Throws SceneError, whose message is complete, for whatever is wrong with the
