@@ -4,24 +4,38 @@
 namespace h2mc {
 
 void Problems::add(const SceneError& error) {
+  if (messages_.size() > kMost) throwIfAny();  // on the way out
   if (!error.place().empty() && silenced_.count(error.place())) return;
   if (harmless_ && strictness_ != Strictness::kStrict) {
     std::string text = error.what();
     const std::string label = ": error: ";
     if (const std::size_t at = text.find(label); at != std::string::npos)
       text.replace(at, label.size(), ": warning: ");
-    if (said_.insert(text).second) warnings_.push_back(text);
+    addWarning(text);
     return;
   }
   if (said_.insert(error.what()).second) messages_.emplace_back(error.what());
+  if (messages_.size() == kMost) {
+    messages_.emplace_back("there is more, which is not looked at");
+    throwIfAny();
+  }
+}
+
+void Problems::addWarning(const std::string& text) {
+  if (warnings_.size() >= kMostWarnings)
+    ++unsaid_;
+  else if (said_.insert(text).second)
+    warnings_.push_back(text);
 }
 
 void Problems::silence(const SourcePlace& place) { silenced_.insert(describe(place)); }
 
 void Problems::warn(const SourcePlace& place, const std::string& message, const std::string& hint) {
   if (strictness_ == Strictness::kStrict) throw sourceError(place, message, hint);
-  const std::string text = sourceMessage(place, "warning", message, hint);
-  if (said_.insert(text).second) warnings_.push_back(text);
+  if (warnings_.size() >= kMostWarnings)
+    ++unsaid_;
+  else
+    addWarning(sourceMessage(place, "warning", message, hint));
 }
 
 void Problems::tolerate(const SourcePlace& place, const std::string& message,
@@ -37,14 +51,12 @@ void Problems::refuse(const SourcePlace& place, const std::string& message,
   warn(place, message, instead);
 }
 
-void Problems::throwIfAny() const {
+void Problems::throwIfAny() {
+  if (unsaid_ > 0) warnings_.push_back("and " + std::to_string(unsaid_) + " more warnings");
+  unsaid_ = 0;
   if (messages_.empty()) return;
-  constexpr std::size_t kMost = 100;
   std::string all;
-  for (std::size_t i = 0; i < messages_.size() && i < kMost; ++i)
-    all += (all.empty() ? "" : "\n") + messages_[i];
-  if (messages_.size() > kMost)
-    all += "\nand " + std::to_string(messages_.size() - kMost) + " more";
+  for (const std::string& message : messages_) all += (all.empty() ? "" : "\n") + message;
   throw SceneError(all);
 }
 

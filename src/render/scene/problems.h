@@ -23,7 +23,8 @@ class Problems {
   Problems(Strictness strictness, bool old, std::vector<std::string>& warnings)
       : strictness_(strictness), old_(old), warnings_(warnings) {}
 
-  // An error; what does not depend on it is still read. Said once, however often it is met.
+  // An error; what does not depend on it is still read. Said once, however often it is met. Throws them
+  // all where they are too many for anyone to read.
   void add(const SceneError& error);
   // Errors at this place follow from one that has been added: they are not said.
   void silence(const SourcePlace& place);
@@ -40,15 +41,22 @@ class Problems {
   // error (SceneError).
   void refuse(const SourcePlace& place, const std::string& message, const std::string& instead);
 
-  // Throws one SceneError with all messages if there are any.
-  void throwIfAny() const;
+  // Throws one SceneError with all messages if there are any. To be called at the end: says how many
+  // warnings have not been said.
+  void throwIfAny();
+
+  // So many errors, or warnings, are said. Each takes a look at the whole file for its place.
+  static constexpr std::size_t kMost = 100, kMostWarnings = 1000;
 
  private:
+  void addWarning(const std::string& text);
+
   Strictness strictness_;
   bool old_, harmless_ = false;
   std::vector<std::string>& warnings_;
   std::vector<std::string> messages_;
   std::set<std::string> said_, silenced_;
+  std::size_t unsaid_ = 0;  // warnings
 };
 
 }  // namespace h2mc

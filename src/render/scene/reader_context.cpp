@@ -11,6 +11,10 @@ namespace {
 class Open {
  public:
   Open(std::set<const XmlElement*>& open, const XmlElement& element) : open_(open), key_(&element) {
+    constexpr std::size_t kDeepest = 64;  // what is made inside each other takes stack
+    if (open_.size() >= kDeepest)
+      throw sourceError(element.place("id"),
+                        "references lead more than " + std::to_string(kDeepest) + " elements deep");
     if (!open_.insert(key_).second)
       throw sourceError(element.place("id"),
                         "<" + element.name + "> contains itself by a reference");

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "render/scene/old_spellings.h"
+#include "render/scene/problems.h"
 #include "render/scene/suggestion.h"
 #include "render/scene/text_encoding.h"
 
@@ -23,6 +24,9 @@ std::string folderOf(const std::string& path) {
 bool identifierCharacter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
+
+// There is more wrong with a document than anyone wants to know.
+struct TooManyProblems {};
 
 // Goes through the elements in the order in which they are written, as <default> asks for.
 class Loader {
@@ -69,6 +73,7 @@ class Loader {
     } catch (const SceneError& e) {
       document_.problems.push_back(e);
     }
+    if (document_.problems.size() >= Problems::kMost) throw TooManyProblems();
   }
 
   void process(XmlElement& element) {
@@ -257,7 +262,13 @@ std::unique_ptr<SceneDocument> loadSceneDocument(const std::string& file,
       throw SceneError(file + ": error: \"" + confine + "\" is no folder to confine the scene to");
   }
   Loader loader(*document, defines);
-  document->root = loader.load(file, {});
+  try {
+    document->root = loader.load(file, {});
+  } catch (const TooManyProblems&) {
+    std::string all;
+    for (const SceneError& problem : document->problems) all += problem.what() + std::string("\n");
+    throw SceneError(all + "there is more, which is not looked at");
+  }
   document->files.insert(file);
   if (document->root.name != "scene")
     throw sourceError(document->root.place(),

@@ -38,14 +38,20 @@ std::size_t distance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string closestName(std::string_view name, const Names& candidates) {
-  constexpr std::size_t kLongest = 64;  // a longer "name" is no typing mistake
-  if (name.empty() || name.size() > kLongest) return "";
+  constexpr std::size_t kLongest = 64;   // a longer "name" is no typing mistake
+  constexpr std::size_t kMost = 100000;  // ids of a scene: too many to compare with
+  if (name.empty() || name.size() > kLongest || candidates.size() > kMost) return "";
   const std::string wanted = folded(name);
   std::string best;
   std::size_t bestDistance = std::max<std::size_t>(1, wanted.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
     if (candidate.size() > kLongest) continue;
-    const std::size_t d = distance(wanted, folded(candidate));
+    const std::string other = folded(candidate);
+    // Each letter more is a step.
+    if (std::max(wanted.size(), other.size()) - std::min(wanted.size(), other.size()) >=
+        bestDistance)
+      continue;
+    const std::size_t d = distance(wanted, other);
     if (d < bestDistance) {
       bestDistance = d;
       best = candidate;

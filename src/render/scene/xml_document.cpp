@@ -11,6 +11,7 @@ namespace h2mc {
 namespace {
 
 constexpr int kDeepest = 64;
+constexpr std::size_t kMostAttributes = 64;
 
 bool isSpace(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
@@ -44,6 +45,9 @@ XmlElement convert(const pugi::xml_node& node, const std::shared_ptr<const Sourc
                       "elements are nested more than " + std::to_string(kDeepest) + " deep");
   for (const pugi::xml_attribute& a : node.attributes())
     element.attributes.push_back({a.name(), a.value(), 0, 0});
+  if (element.attributes.size() > kMostAttributes)
+    throw sourceError(element.place(), "<" + element.name + "> has more than " +
+                                           std::to_string(kMostAttributes) + " attributes");
   locateAttributes(element);
   for (std::size_t i = 0; i < element.attributes.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
