@@ -5,7 +5,11 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
+#include <iterator>
+#include <memory>
 #include <stdexcept>
+#include <string_view>
 
 namespace h2mc {
 namespace {
@@ -19,6 +23,40 @@ float gammaOf(const OIIO::ImageSpec& spec) {
   }
   if (space == "Linear" || spec.format.is_floating_point()) return 1;
   return -1;
+}
+
+// Formats of pictures that are whole in one file. OpenImageIO has more, among them FFmpeg's: what it takes for a movie may
+// be a list of other files, or of addresses, that it opens.
+constexpr const char* kFormats[] = {
+    "openexr",  "hdr", "png", "jpeg", "tiff", "bmp", "targa",     "pnm",    "webp", "dds", "gif",
+    "jpeg2000", "psd", "sgi", "iff",  "dpx",  "rla", "softimage", "cineon", "ico",  "fits"};
+
+// Opens it by the reader that its ending asks for, else by the first that knows its content.
+std::unique_ptr<OIIO::ImageInput> openPicture(const std::string& path,
+                                              const OIIO::ImageSpec& wishes) {
+  std::string error;
+  const auto opened = [&](const std::string& format) {
+    auto input = OIIO::ImageInput::create(format);
+    OIIO::geterror();  // an ending that it does not know
+    const bool known =
+        input && std::any_of(std::begin(kFormats), std::end(kFormats), [&](auto name) {
+          return std::string_view(input->format_name()) == name;
+        });
+    OIIO::ImageSpec spec;
+    if (known && input->open(path, spec, wishes)) return input;
+    if (known && error.empty()) error = input->geterror();
+    return std::unique_ptr<OIIO::ImageInput>();
+  };
+  const std::string ending = OIIO::Filesystem::extension(path, false);
+  if (!ending.empty())
+    if (auto input = opened(ending)) return input;
+  for (const char* format : kFormats) {
+    const auto reader = OIIO::ImageInput::create(format);
+    if (!reader || !reader->valid_file(path)) continue;
+    if (auto input = opened(format)) return input;
+  }
+  throw std::runtime_error(error.empty() ? "it is in none of the formats of pictures that are read"
+                                         : error);
 }
 
 // ending: with its dot, which says the format.
@@ -41,9 +79,7 @@ class OiioFormats final : public ImageFormats {
   FilePicture read(const std::string& path) const override {
     OIIO::ImageSpec wishes;
     wishes.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored, not multiplied by alpha
-    const auto input = OIIO::ImageInput::open(path, &wishes);
-    if (!input) throw std::runtime_error(OIIO::geterror());
-
+    const auto input = openPicture(path, wishes);
     const OIIO::ImageSpec& spec = input->spec();
     if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1)
       throw std::runtime_error("it holds no flat picture");
