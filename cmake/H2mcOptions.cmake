@@ -11,7 +11,8 @@ set(H2MC_DERIVATIVE_EDGES 4 CACHE STRING
 set(H2MC_SANITIZE "" CACHE STRING "Sanitizers to build with, such as address,undefined")
 option(H2MC_BUILD_TESTS "Build the tests, where GoogleTest is found" ON)
 set(H2MC_TEST_FOLDERS "ad;unit;derivative;statistical;stress;image;threads" CACHE STRING
-    "Which folders of tests to build")
+    "Which folders of tests to build; there is fuzz too")
+option(H2MC_BUILD_FUZZERS "Build the programs of tests/fuzz with libFuzzer, by clang" OFF)
 option(H2MC_BUILD_BENCHMARKS "Build the benchmarks, where Google Benchmark is found" ON)
 set(H2MC_DATA_DIR "${CMAKE_SOURCE_DIR}/../shared/data" CACHE PATH
     "Published scenes and reference images, for the tests")

@@ -56,6 +56,8 @@ asan_tests() {
   export ASAN_OPTIONS=${ASAN_OPTIONS/detect_leaks=1/detect_leaks=0}
   ctest --test-dir "$root/build/asan" -j2 --output-on-failure --output-junit "$reports/asan-cli.xml" \
     -L '^cli$' -E 'slow|cli_(render|compare|demo|gradcheck|stress|inspect|motion)' || status=1
+  ctest --test-dir "$root/build/asan" -j2 --output-on-failure --output-junit "$reports/asan-fuzz.xml" -L '^fuzz$' ||
+    status=1
   unset ASAN_OPTIONS LSAN_OPTIONS UBSAN_OPTIONS
   return "$status"
 }
@@ -141,11 +143,11 @@ if [[ $quick == no ]]; then
     skip "build: clang" "no clang++"
   else
     if step "build: clang with address and undefined-behaviour sanitizers, warnings are errors" \
-        build asan all -DH2MC_WERROR=ON "-DH2MC_TEST_FOLDERS=unit;derivative;stress;statistical" \
+        build asan all -DH2MC_WERROR=ON "-DH2MC_TEST_FOLDERS=unit;derivative;stress;statistical;fuzz" \
         -DH2MC_BUILD_BENCHMARKS=OFF; then
-      step "tests: unit, derivative, stress, statistical and cli under the sanitizers" asan_tests
+      step "tests: unit, derivative, stress, statistical, cli and fuzz under the sanitizers" asan_tests
     else
-      skip "tests: unit, derivative, stress, statistical and cli under the sanitizers" "not built"
+      skip "tests: unit, derivative, stress, statistical, cli and fuzz under the sanitizers" "not built"
     fi
     if step "build: the tests of the AD type, optimised by clang" \
         build clang h2mc_ad_tests "${build_options[@]}" -DH2MC_TEST_FOLDERS=ad -DH2MC_BUILD_BENCHMARKS=OFF \
