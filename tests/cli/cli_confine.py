@@ -88,7 +88,7 @@ class Confine(_h2mc.Test):
         self.write("in/only.xml", '<scene version="0.6.0"><include filename="../out/included.xml"/></scene>')
         self.write("in/deeper/scene.xml", _h2mc.SCENE.replace(
             "</scene>", '<include filename="../only.xml"/></scene>'))
-        self.refused("in/deeper/scene.xml", "in/only.xml:", "out/included.xml")
+        self.refused("in/deeper/scene.xml", "only.xml:1:", "out/included.xml")
         self.write("out/rare.obj", OBJ)
         scene = self.scene("in", "mesh.obj", "rare.obj", more='<path value="../out"/>')
         self.succeeds("info", scene)
