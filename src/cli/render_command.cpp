@@ -232,6 +232,9 @@ int render(const RenderOptions& options) {
     request.stop = &StopSignals::requested();
     request.progress = [&](const RenderProgress& progress) { display.update(progress); };
     request.resume = keeper.resume();
+    if (options.keep.resume)
+      for (const std::string& file : {outputs.image, checkpointFile(options.keep, outputs.image)})
+        removeAbandoned(file);
     if (keeper.wanted()) request.watch = [&](RenderInProgress& render) { keeper.look(render); };
     try {
       result = choice.integrator->render(scene, request);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Renders that are killed, and go on: a hundred times."""
+"""Renders that are killed, and go on."""
 
 import os
 import random
@@ -10,7 +10,7 @@ import time
 import _h2mc
 
 TIMING = ("wallSeconds", "cpuSeconds", "threads")
-BUDGETS = {"path": 12000, "bdpt": 3000, "mmlt": 8000, "h2mc": 5000, "lmc": 5000, "rjmlt": 7000, "mlt": 4000}
+BUDGETS = {"path": 8000, "bdpt": 2000, "mmlt": 5000, "h2mc": 3000, "lmc": 3000, "rjmlt": 4000, "mlt": 2500}
 
 
 class Kill(_h2mc.Test):
@@ -35,18 +35,20 @@ class Kill(_h2mc.Test):
                 for _ in range(2):
                     kills += self.render_and_kill([*command, "a.exr"], moments, whole)
                     self.assertEqual(self.picture("a.exr"), self.picture("whole.exr"))
+                    self.assertEqual(self.files(), ["a.exr", "a.state", "scene.xml", "whole.exr"])
                     os.remove(self.path("a.state"))
                     os.remove(self.path("a.exr"))
         print("killed", kills, "times")
-        self.assertGreaterEqual(kills, 50)
+        self.assertGreaterEqual(kills, 20)  # a hundred on an idle machine
 
     def render_and_kill(self, command, moments, whole):
         """Returns how many times it was killed."""
-        command = [*command, "--checkpoint", "a.state", "--every", "0.03", "--resume", "--threads"]
+        command = [*command, "--checkpoint", "a.state", "--every", "0.05", "--resume", "--threads"]
         for attempt in range(300):
             process = subprocess.Popen([*command, str(1 + attempt % 3)], cwd=self.folder)
             try:
-                process.communicate(timeout=whole * (0.03 + 0.25 * moments.random()))
+                # Later and later, should the machine have become slow.
+                process.communicate(timeout=whole * (0.03 + 0.25 * moments.random()) * (1 + attempt / 16))
                 self.assertEqual(process.returncode, 0)
                 return attempt
             except subprocess.TimeoutExpired:

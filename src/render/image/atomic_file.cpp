@@ -2,16 +2,19 @@
 #include "render/image/atomic_file.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <vector>
 
 namespace h2mc {
 namespace {
@@ -25,6 +28,18 @@ std::array<std::atomic<const char*>, 16> temporaryNames{};
 [[noreturn]] void fail(const std::string& target, const std::string& why) {
   throw std::runtime_error("cannot write \"" + target + "\": " + why);
 }
+
+// Returns when what was written is on the disk.
+void sync(const std::string& file, const std::string& target) {
+  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool done = descriptor >= 0 && (fsync(descriptor) == 0 || errno == EINVAL);
+  const int why = errno;
+  if (descriptor >= 0) close(descriptor);
+  if (!done) fail(target, std::strerror(why));
+}
+
+// What temporary names begin with, after which come the process and a counter.
+std::string temporaryPrefix(const fs::path& path) { return "." + path.stem().string() + ".tmp-"; }
 
 // The file that a chain of symbolic links ends at, there or not.
 fs::path followLinks(const std::string& target) {
@@ -55,7 +70,7 @@ AtomicFile::AtomicFile(const std::string& target) {
   static std::atomic<unsigned> counter{0};
   int descriptor = -1;
   for (int attempt = 0; attempt < 100 && descriptor < 0; ++attempt) {
-    temporary_ = (folder / ("." + path.stem().string() + ".tmp-" + std::to_string(getpid()) + "-" +
+    temporary_ = (folder / (temporaryPrefix(path) + std::to_string(getpid()) + "-" +
                             std::to_string(counter++) + path.extension().string()))
                      .string();
     descriptor = open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
@@ -77,6 +92,7 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::commit() {
+  sync(temporary_, target_);
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(target_, std::strerror(errno));
   if (slot_ >= 0) temporaryNames[slot_] = nullptr;
   slot_ = -1;
@@ -90,6 +106,23 @@ void writeTextAtomically(const std::string& target, const std::string& text) {
   stream.close();
   if (!stream) fail(target, "writing failed, is the disk full?");
   file.commit();
+}
+
+void removeAbandoned(const std::string& target) {
+  const fs::path path = followLinks(target);
+  const std::string prefix = temporaryPrefix(path);
+  std::error_code error;
+  fs::directory_iterator entries(path.has_parent_path() ? path.parent_path() : fs::path("."),
+                                 error);
+  std::vector<fs::path> abandoned;
+  for (; !error && entries != fs::directory_iterator(); entries.increment(error)) {
+    const std::string name = entries->path().filename().string();
+    if (!name.starts_with(prefix) || entries->path().extension() != path.extension()) continue;
+    const pid_t process = static_cast<pid_t>(std::atol(name.c_str() + prefix.size()));
+    if (process > 0 && kill(process, 0) != 0 && errno == ESRCH)
+      abandoned.push_back(entries->path());
+  }
+  for (const fs::path& file : abandoned) fs::remove(file, error);
 }
 
 void removeTemporaryFiles() noexcept {

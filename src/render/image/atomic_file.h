@@ -20,7 +20,8 @@ class AtomicFile {
   // Where to write; it has the target's ending.
   const std::string& temporaryPath() const { return temporary_; }
 
-  // Replaces the target. The file must be closed. Throws std::runtime_error.
+  // Replaces the target, once the file is on the disk: after a power cut there is the old one or the new one. The file
+  // must be closed. Throws std::runtime_error.
   void commit();
 
  private:
@@ -31,6 +32,9 @@ class AtomicFile {
 
 // Writes text to `target` through an AtomicFile. Throws std::runtime_error.
 void writeTextAtomically(const std::string& target, const std::string& text);
+
+// Removes the temporary files for this target that processes have left that are no more: those that were killed.
+void removeAbandoned(const std::string& target);
 
 // Removes the temporary files that exist now. For a signal handler that ends the program at once:
 // it calls nothing that is unsafe there.
