@@ -71,7 +71,7 @@ class SceneMutator {
     else if (value.value.find_first_of(", ") != std::string::npos)
       changeOneOfMany(value.value);
     else
-      value.value = random_.chance(0.5) ? anyNumber(random_) : wildNumber(random_);
+      value.value = anyNumber(random_);
   }
   static bool isValue(const XmlAttribute& a) {
     return a.name != "name" && a.name != "id" && a.name != "type" && a.name != "version";
@@ -93,8 +93,7 @@ class SceneMutator {
     const std::size_t begin = text.find_first_not_of(", ", at);
     if (begin == std::string::npos) return;
     const std::size_t end = std::min(text.find_first_of(", ", begin), text.size());
-    text.replace(begin, end - begin,
-                 random_.chance(0.5) ? anyNumber(random_) : wildNumber(random_));
+    text.replace(begin, end - begin, anyNumber(random_));
   }
 
   void addParameter() {
@@ -179,8 +178,9 @@ class SceneMutator {
     const std::string id = to.element ? to.element->attribute("id") : "m0";
     if (from.element && random_.chance(0.6))
       from.element->attributes = {{"id", id, 0, 0}};
-    else
-      any().element->children.push_back(makeElement("ref", {{"id", id}}));
+    else if (const Node in = find([](const XmlElement& e) { return typeOf(e) != nullptr; });
+             in.element)
+      in.element->children.push_back(makeElement("ref", {{"id", id}}));
   }
 
   void changeAttribute() {
@@ -216,7 +216,7 @@ class SceneMutator {
             if (a.name == "value") a.value = "$" + name;
         return;
     }
-    std::vector<XmlElement>& children = any().element->children;
+    std::vector<XmlElement>& children = (random_.chance(0.9) ? &root_ : any().element)->children;
     children.insert(
         children.begin() + static_cast<std::ptrdiff_t>(random_.below(children.size() + 1)),
         std::move(made));
@@ -249,7 +249,8 @@ std::string mutateScene(const std::string& text, Random& random, const ByteMutat
     return mutateBytes(text, most);
   }
   SceneMutator mutator(root, random, mutateBytes);
-  for (std::size_t changes = 1 + random.below(4); changes > 0; --changes) mutator.change();
+  do mutator.change();
+  while (random.chance(0.4));
   const std::string changed = xmlText(root);
   return changed.size() <= most ? changed : mutateBytes(text, most);
 }

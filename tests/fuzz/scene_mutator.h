@@ -8,7 +8,7 @@
 
 namespace h2mc::fuzz {
 
-// One to four changes. Text that is no XML goes to `mutateBytes`, and now and then other text too.
+// One change or some more. Text that is no XML goes to `mutateBytes`, and now and then other text too.
 std::string mutateScene(const std::string& text, Random& random, const ByteMutator& mutateBytes,
                         std::size_t most);
 

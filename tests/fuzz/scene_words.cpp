@@ -98,6 +98,15 @@ XmlElement makeTransform(const std::string& name, Random& random) {
   return animation;
 }
 
+// One that it can read.
+std::string_view fileFor(const ElementType& type, Random& random) {
+  constexpr std::string_view kPictures[] = {"picture.png", "sky.hdr", "sky.exr"};
+  if (type.type == "obj") return "mesh.obj";
+  if (type.type == "ply") return "mesh.ply";
+  if (type.type == "serialized") return "mesh.serialized";
+  return random.pick(kPictures);
+}
+
 std::string anyWord(const Parameter& parameter, Random& random) {
   if (!parameter.choices.empty()) return oneOf(parameter.choices, random);
   if (parameter.name == "filename") return std::string(random.pick(sceneFiles()));
@@ -151,7 +160,7 @@ XmlElement makeElement(std::string name,
 std::string anyNumber(Random& random) {
   constexpr std::string_view kTame[] = {"0",   "1",   "0.5",  "0.1", "0.05", "2",   "1.5",
                                         "0.8", "0.2", "0.01", "3",   "-1",   "0.3", "10"};
-  return random.chance(0.7) ? std::string(random.pick(kTame)) : wildNumber(random);
+  return random.chance(0.8) ? std::string(random.pick(kTame)) : wildNumber(random);
 }
 
 std::string numbers(std::size_t count, std::string_view separator, Random& random) {
@@ -230,6 +239,10 @@ XmlElement makeTyped(const ElementType& type, Random& random) {
     const bool needed = p.fallback.empty() && p.type == kString && !p.ignored;
     if (needed || random.chance(0.2)) element.children.push_back(makeParameter(p, random));
   }
+  const std::string_view file = fileFor(type, random);
+  for (XmlElement& child : element.children)
+    if (child.attribute("name") == "filename" && random.chance(0.9))
+      child.attributes.back().value = file;
   for (int i = 0; i < std::min(type.nestedBsdfs, 2); ++i)
     element.children.push_back(
         makeTyped(random.chance(0.1) ? anyTypeOf("bsdf", random) : elementTypes().front(), random));
