@@ -50,7 +50,7 @@ TEST(HostileScene, ChainsOfReferences) {
                  "<bsdf type=\"diffuse\"", "<ref id=\"c0\"/>");
   };
   EXPECT_EQ(errorOf(textures(40)), "");
-  for (const int length : {100, 30000}) {
+  for (const int length : {100, 20000}) {
     EXPECT_NE(errorOf(textures(length)).find("deep"), std::string::npos) << length;
     for (const char* type : {"twosided", "mask", "bumpmap", "normalmap"})
       EXPECT_NE(errorOf(materials(type, length)), "") << type << length;
@@ -89,6 +89,22 @@ TEST(HostileScene, AttributesWithoutEnd) {
   };
   EXPECT_EQ(errorOf(scene(20)), "");
   EXPECT_NE(errorOf(scene(100)).find("more than 64 attributes"), std::string::npos);
+}
+
+// Found by a fuzzer: rays without a direction, at which Embree aborts.
+TEST(HostileScene, CamerasWithoutSize) {
+  const auto scene = [](const std::string& transform) {
+    std::string text = sceneWith("");
+    return text.insert(text.find("<film"),
+                       "<transform name=\"toWorld\">" + transform + "</transform>");
+  };
+  for (const char* fine :
+       {"<scale value=\"1e-3\"/>", "<scale value=\"1e3\"/>", "<scale x=\"-1\"/>"})
+    EXPECT_EQ(errorOf(scene(fine)), "") << fine;
+  for (const char* nothing :
+       {"<scale value=\"1e-45\"/>", "<scale value=\"1e-25\"/>", "<scale value=\"1e25\"/>",
+        "<scale value=\"0\"/>", "<scale z=\"0\"/>", "<scale y=\"1e-30\"/>"})
+    EXPECT_NE(errorOf(scene(nothing)), "") << nothing;
 }
 
 // A name is compared with those alone that are as long, give or take what makes a typing mistake.

@@ -116,6 +116,7 @@ class SceneReader {
         checkExtent(
             *sensor_, "the camera",
             std::max(farthest(camera.poseOf(0).position), farthest(camera.poseOf(1).position)));
+        checkAxes(*sensor_, camera);
       });
     for (const XmlElement& child : root_.children)
       attempt([&] {
@@ -154,6 +155,17 @@ class SceneReader {
       throw sourceError(
           element.place(), fmt::format("{} reaches to a coordinate of {:.3g}", what, reach),
           fmt::format("expected coordinates up to {:.0g}: the scene in a larger unit", kFarthest));
+  }
+
+  // Their lengths do not matter, but squares of 1e-25 are nothing in float, and those of 1e25 no number.
+  static void checkAxes(const XmlElement& element, const Camera& camera) {
+    for (const float time : {0.f, 1.f}) {
+      const CameraPose<float> pose = camera.poseOf(time);
+      for (const Vec3f& axis : {pose.left, pose.up, pose.forward})
+        if (!(std::abs(glm::length(axis) - 1) < 0.1f))
+          throw sourceError(element.place(), "the camera's transform leaves nothing of its axes",
+                            "expected one that moves and turns: a camera has no size");
+    }
   }
 
   void readShapeWithin(const XmlElement& element) {
