@@ -12,6 +12,18 @@
 
 namespace h2mc {
 
+// What DirectLighting::add() is about to add.
+struct DirectLightingPart {
+  double seconds = 0;
+  long long samples = 0;
+  int half = 0;        // that gets samples now
+  bool begun = false;  // of that half
+  std::uint64_t seed = 0;
+  long long rounds = 0;                    // of that half, made
+  double halfSeconds = 0, allSeconds = 0;  // spent on it, and on the whole part
+  std::unique_ptr<SampledFilm> film;
+};
+
 // Paths of one and two edges, in parts: each makes it less noisy. First as much of it as every render
 // can use, then, when the chains know their own noise, as much as makes the whole picture's least.
 class DirectLighting {
@@ -70,22 +82,12 @@ class DirectLighting {
   long long notFinite() const { return tally().notFinite; }
 
  private:
+  using Part = DirectLightingPart;
   // One of two independent halves.
   struct Half {
     SampleTally tally;
     Image rows;  // its own picture, in the measured rows
     void archive(Archive& archive) { archive(tally, rows); }
-  };
-  // What add() is about to add.
-  struct Part {
-    double seconds = 0;
-    long long samples = 0;
-    int half = 0;        // that gets samples now
-    bool begun = false;  // of that half
-    std::uint64_t seed = 0;
-    long long rounds = 0;                    // of that half, made
-    double halfSeconds = 0, allSeconds = 0;  // spent on it, and on the whole part
-    std::unique_ptr<SampledFilm> film;
   };
   struct Sums {
     std::array<Half, 2> halves;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "render/scene/scene_document.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <optional>
@@ -59,8 +61,8 @@ class Loader {
       Names names(used_.begin(), used_.end());
       for (const std::string& d : defaults_)
         if (!used_.count(d)) names.push_back(d);
-      throw SceneError(file + ": error: the scene has no $" + name + " (-D " + name + "=" + value +
-                       ")\n" + suggestion(name, names));
+      throw SceneError(fmt::format("{}: error: the scene has no ${} (-D {}={})\n{}", file, name,
+                                   name, value, suggestion(name, names)));
     }
   }
 
