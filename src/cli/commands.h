@@ -71,6 +71,9 @@ void addSeed(CLI::App& command, std::optional<std::uint64_t>& seed, const std::s
 inline constexpr int kMostThreads = 1024;
 void addThreads(CLI::App& command, int& threads);
 
+// The options --max-texture-pixels and --max-memory, of all commands that read images.
+void addLimits(CLI::App& command);
+
 // The scene's warnings, on stderr.
 void printWarnings(const Scene& scene);
 

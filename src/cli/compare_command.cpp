@@ -248,6 +248,7 @@ void addCompareCommand(CLI::App& app, Run& run) {
   addSeed(*command, plan.seed, "Of the first repeat; the others follow");
   addThreads(*command, plan.threads);
   addDefines(*command, plan.defines);
+  addLimits(*command);
   addPermissive(*command, plan.permissive);
   addConfine(*command, plan.confine);
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but the table and errors");

@@ -86,6 +86,7 @@ void addDemoCommand(CLI::App& app, Run& run) {
       ->capture_default_str();
   addSeed(*copy, settings.seed, "Same picture, options and seed: same page");
   addThreads(*copy, settings.threads);
+  addLimits(*copy);
   copy->callback([options, &run] { run = [options] { return imageCopy(*options); }; });
 }
 

@@ -111,6 +111,7 @@ void addDiffCommand(CLI::App& app, Run& run) {
                    "relative: size of the relative error, logarithmic")
       ->capture_default_str()
       ->check(CLI::IsMember({"signed", "relative"}));
+  addLimits(*command);
   std::string footer =
       "Metrics (a: image, r: reference, e = a - r, m: the reference's mean luminance; means over "
       "pixels and channels):\n";

@@ -185,6 +185,7 @@ void addGradcheckCommand(CLI::App& app, Run& run_) {
       ->check(CLI::Range(1, kMaxPathLength));
   addThreads(*command, settings.threads);
   addDefines(*command, options->defines);
+  addLimits(*command);
   addPermissive(*command, options->permissive);
   addConfine(*command, options->confine);
   command->add_option("--json", options->json, "JSON file for everything that was found");

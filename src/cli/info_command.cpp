@@ -167,6 +167,7 @@ void addInfoCommand(CLI::App& app, Run& run) {
   CLI::App* command = app.add_subcommand("info", "What a scene file holds, as it was read");
   command->add_option("SCENE", options->scene, "Scene file (Mitsuba XML)")->required();
   addDefines(*command, options->defines);
+  addLimits(*command);
   addPermissive(*command, options->permissive);
   addConfine(*command, options->confine);
   command->add_flag("--strict", options->strict, "Take every warning for an error")

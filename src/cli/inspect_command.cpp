@@ -202,6 +202,7 @@ void addInspectCommand(CLI::App& app, Run& run_) {
   addSeed(*command, options->seed, "Same seed: same path. Default: the scene's, or 0");
   addThreads(*command, settings.threads);
   addDefines(*command, options->defines);
+  addLimits(*command);
   addPermissive(*command, options->permissive);
   addConfine(*command, options->confine);
   command->add_option("--json", options->json,

@@ -295,6 +295,7 @@ void addRenderCommand(CLI::App& app, Run& run) {
           "Same scene, options and seed: same image. Default: the scene's, or 0");
   addThreads(*command, options->threads);
   addDefines(*command, options->defines);
+  addLimits(*command);
   addPermissive(*command, options->permissive);
   addConfine(*command, options->confine);
   addKeepOptions(*command, options->keep);

@@ -2,9 +2,12 @@
 // Options that several commands have.
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cmath>
 #include <limits>
 
 #include "cli/commands.h"
+#include "render/core/memory.h"
+#include "render/image/image_limits.h"
 
 namespace h2mc {
 namespace {
@@ -18,6 +21,17 @@ CLI::Validator wholeNumber(std::uint64_t low, std::uint64_t high) {
             if (error == std::errc() && last == end && value >= low && value <= high) return "";
             return "expected a whole number from " + std::to_string(low) + " to " +
                    std::to_string(high) + ", got \"" + text + "\"";
+          },
+          ""};
+}
+
+CLI::Validator positiveNumber() {
+  return {[](const std::string& text) -> std::string {
+            double value = 0;
+            const char* const end = text.data() + text.size();
+            const auto [last, error] = std::from_chars(text.data(), end, value);
+            if (error == std::errc() && last == end && std::isfinite(value) && value > 0) return "";
+            return "expected a number above 0, got \"" + text + "\"";
           },
           ""};
 }
@@ -69,6 +83,22 @@ void addSeed(CLI::App& command, std::uint64_t& seed, const std::string& descript
 void addSeed(CLI::App& command, std::optional<std::uint64_t>& seed,
              const std::string& description) {
   command.add_option("--seed", seed, description)->check(kSeed);
+}
+
+void addLimits(CLI::App& command) {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 40;
+  command
+      .add_option_function<std::uint64_t>(
+          "--max-texture-pixels", [](const std::uint64_t& count) { setMostPixels(count); },
+          "Refuse images that have more; default: " + std::to_string(kMostPixels))
+      ->check(wholeNumber(1, kMost));
+  command
+      .add_option_function<double>(
+          "--max-memory", [](const double& gigabytes) { setMostMemory(gigabytes * 1e9); },
+          "GB that the program may take: what needs more is refused before it begins; default: "
+          "what "
+          "the machine, or its control group, has left")
+      ->check(positiveNumber());
 }
 
 void addThreads(CLI::App& command, int& threads) {

@@ -177,6 +177,7 @@ void addStressCommand(CLI::App& app, Run& run_) {
                    "NAME,...: these variations alone; \"alpha\" stands for all alpha=..")
       ->delimiter(',');
   addDefines(*command, options->defines);
+  addLimits(*command);
   addPermissive(*command, options->permissive);
   addConfine(*command, options->confine);
   command->add_option("--json", options->json, "JSON file for everything that was found");

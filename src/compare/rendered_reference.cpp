@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 
+#include "compare/record_file.h"
+#include "render/core/input_file.h"
 #include "render/core/random.h"
 #include "render/image/atomic_file.h"
 #include "render/image/image_io.h"
@@ -40,8 +42,7 @@ class Halves {
   Halves(fs::path folder, json key) : folder_(std::move(folder)), key_(std::move(key)) {}
 
   void load() {
-    std::ifstream stream(folder_ / "record.json");
-    const json record = stream ? json::parse(stream, nullptr, false) : json();
+    const json record = readRecordFile(folder_);
     if (!record.is_object() || record.value("key", json()) != key_) return;
     for (std::size_t h = 0; h < 2; ++h) images_[h] = readImage(fileOf(h, record["parts"]).string());
     parts_ = record["parts"];
@@ -124,7 +125,9 @@ double lastSeconds(const ComparisonPlan& plan, const SceneRuns& runs) {
 
 std::string referenceIntegrator(const ComparisonPlan& plan, const ComparedScene& scene) {
   if (!plan.referenceIntegrator.empty()) return plan.referenceIntegrator;
-  std::ifstream stream(fs::path(scene.file).parent_path() / "README.md");
+  const fs::path page = fs::path(scene.file).parent_path() / "README.md";
+  if (!fs::exists(page)) return "bdpt";
+  std::istringstream stream(InputFile(page.string(), kLargestText).whole());
   for (std::string line; std::getline(stream, line);) {
     const std::size_t at = line.find("Reference integrator:");
     if (at == std::string::npos) continue;

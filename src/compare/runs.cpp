@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
+#include "compare/record_file.h"
 #include "render/core/index.h"
 #include "render/image/atomic_file.h"
 #include "render/image/image_io.h"
@@ -48,10 +48,8 @@ json recordOf(const Repeat& run, const json& key) {
 
 // The finished run in this folder, if it is the one that is looked for.
 bool readRecord(const fs::path& folder, const json& key, Repeat& run) {
-  std::ifstream stream(folder / "record.json");
-  if (!stream) return false;
-  const json record = json::parse(stream, nullptr, false);
-  if (record.is_discarded() || !record.contains("key") || record["key"] != key) return false;
+  const json record = readRecordFile(folder);
+  if (!record.is_object() || record.value("key", json()) != key) return false;
   run.seed = record["seed"];
   for (const json& p : record["points"]) {
     Point point;

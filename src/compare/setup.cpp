@@ -3,22 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include "compare/reference.h"
 #include "mcmc/render/integrators.h"
+#include "render/core/input_file.h"
 #include "render/scene/scene_reader.h"
 
 namespace h2mc {
 namespace {
-
-std::string contentOf(const std::string& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 std::map<std::string, std::string> definesOf(const ComparisonPlan& plan) {
   std::map<std::string, std::string> defines;
@@ -69,7 +62,8 @@ ComparisonSetup setUp(const ComparisonPlan& plan) {
   read.strictness = plan.permissive ? Strictness::kPermissive : Strictness::kByVersion;
   ComparisonSetup setup;
   for (const ComparedScene& scene : plan.scenes) {
-    ComparisonSetup::OneScene one{readScene(scene.file, read), hashOf(contentOf(scene.file)), {}};
+    ComparisonSetup::OneScene one{
+        readScene(scene.file, read), hashOf(InputFile(scene.file, kLargestText).whole()), {}};
     const FilmSettings& film = one.scene.film;
     if (const auto size = sizeForReference(plan, scene, film.width, film.height)) {
       ReadOptions atSize = read;

@@ -76,7 +76,7 @@ std::vector<unsigned char> file(const char* ending, int width, int height, OIIO:
 
 class OiioFormats final : public ImageFormats {
  public:
-  FilePicture read(const std::string& path) const override {
+  FilePicture read(const std::string& path, const HeaderCheck& check) const override {
     OIIO::ImageSpec wishes;
     wishes.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored, not multiplied by alpha
     const auto input = openPicture(path, wishes);
@@ -90,9 +90,13 @@ class OiioFormats final : public ImageFormats {
     picture.channels.resize(static_cast<std::size_t>(spec.nchannels));
     picture.alpha = spec.alpha_channel;
     picture.gamma = gammaOf(spec);
+    picture.rawBytes = static_cast<double>(spec.image_bytes(true));
+    const ChannelRange range = check(picture);
     picture.values.resize(static_cast<std::size_t>(spec.width) *
-                          static_cast<std::size_t>(spec.height) * picture.channels.size());
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, picture.values.data()))
+                          static_cast<std::size_t>(spec.height) *
+                          static_cast<std::size_t>(range.end - range.begin));
+    if (!input->read_image(0, 0, range.begin, range.end, OIIO::TypeDesc::FLOAT,
+                           picture.values.data()))
       throw std::runtime_error(input->geterror());
     return picture;
   }

@@ -56,7 +56,7 @@ class Diff(_h2mc.Test):
     def test_bad_input(self):
         self.fails(2, "diff", "wide.png", "white.png", says=("9 x 6", "8 x 6"))
         self.fails(2, "diff", "none.png", "white.png", says="none.png")
-        self.fails(2, "diff", "white.png", ".", says="not a file")
+        self.fails(2, "diff", "white.png", ".", says="it is a folder")
         self.write("text.png", "no picture")
         self.fails(2, "diff", "white.png", "text.png", says="text.png")
         self.fails(2, "diff", "white.png", "white.png", "--metric", "mss", says=("mss", "relmse"))

@@ -81,7 +81,7 @@ TEST(MeshObj, Mistakes) {
   EXPECT_TRUE(contains(objError(v + "f 1/1 2/1 3/1\n"), "texture coordinate 1 is out of range"));
   EXPECT_TRUE(contains(objError(v + "f 1 2\n"), "a face with 2 corners"));
   EXPECT_TRUE(contains(objError(v + "f 1 2 3x\n"), "is not an integer"));
-  EXPECT_TRUE(contains(errorOf([] { loadObj("/no/such.obj", true); }), "cannot be opened"));
+  EXPECT_TRUE(contains(errorOf([] { loadObj("/no/such.obj", true); }), "no such file"));
 }
 
 // --- PLY

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <fstream>
 #include <unordered_map>
 
+#include "render/core/input_file.h"
+#include "render/core/memory.h"
 #include "render/geometry/mesh_data.h"
 #include "render/geometry/mesh_text.h"
 
@@ -153,16 +154,26 @@ class ObjReader {
 
 }  // namespace
 
+void requireMemoryFor(const std::string& mesh, double bytes) {
+  constexpr double kAlways = 64e6;
+  if (bytes <= kAlways) return;
+  try {
+    requireMemory(bytes, "it", "expected a smaller mesh");
+  } catch (const MemoryError& e) {
+    throw MeshError(mesh + ": " + e.what());
+  }
+}
+
 std::string readMeshFile(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw MeshError(path + ": cannot be opened for reading");
-  std::string text;
-  char buffer[1 << 16];
-  while (stream.read(buffer, sizeof buffer) || stream.gcount() > 0)
-    text.append(buffer, static_cast<std::size_t>(stream.gcount()));
-  if (stream.bad()) throw MeshError(path + ": cannot be read");
-  if (text.empty()) throw MeshError(path + ": the file is empty");
-  return text;
+  try {
+    const InputFile file(path, kLargestData);
+    requireMemoryFor(path, static_cast<double>(file.size()));
+    std::string text = file.whole();
+    if (text.empty()) throw MeshError(path + ": the file is empty");
+    return text;
+  } catch (const InputFileError& e) {
+    throw MeshError(path + ": " + e.why());
+  }
 }
 
 MeshData loadObj(const std::string& path, bool flipTexCoords) {

@@ -48,6 +48,7 @@ class PlyReader {
   MeshData read() {
     readHeader();
     at_ = text_.offset();
+    checkSize();
     for (const Element& element : elements_) readElement(element);
     if (mesh_.positions.empty()) fail("the mesh has no vertices");
     if (mesh_.triangles.empty()) fail("the mesh has no faces");
@@ -124,6 +125,27 @@ class PlyReader {
       }
     }
     fail("the header has no end");
+  }
+
+  // What the header promises has to fit into the rest of the file.
+  void checkSize() const {
+    double least = 0;
+    for (const Element& element : elements_) {
+      double bytes = 0;
+      for (const Property& p : element.properties)
+        bytes += format_ == Format::kAscii
+                     ? 2
+                     : static_cast<double>(sizeOf(p.list ? p.countType : p.type));
+      least += bytes * static_cast<double>(element.count);
+    }
+    // The last number of a text needs no blank after it.
+    const double rest = static_cast<double>(data_.size() - at_) + 1;
+    if (least <= rest) return;
+    std::string counts;
+    for (const Element& element : elements_)
+      counts += (counts.empty() ? "" : ", ") + std::to_string(element.count) + " of \"" +
+                element.name + "\"";
+    fail("the file is too short for what its header says: " + counts);
   }
 
   double number(Type type) {

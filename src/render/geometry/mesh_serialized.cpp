@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 
+#include "render/core/input_file.h"
 #include "render/geometry/mesh_data.h"
+#include "render/geometry/mesh_text.h"
 
 namespace h2mc {
 namespace {
@@ -108,19 +109,12 @@ class Inflater {
   bool ended_ = false;
 };
 
-}  // namespace
-
-MeshData loadSerialized(const std::string& path, int shapeIndex) {
-  // Only the mesh itself is read: a file may hold thousands.
-  std::ifstream stream(path, std::ios::binary | std::ios::ate);
-  if (!stream) throw MeshError(path + ": cannot be opened for reading");
-  const auto size = static_cast<std::uint64_t>(std::max<std::streamoff>(stream.tellg(), 0));
+MeshData loadMesh(const std::string& path, const InputFile& file, int shapeIndex) {
+  const std::uint64_t size = file.size();
   const auto bad = [&](const std::string& message) { return MeshError(path + ": " + message); };
   const auto bytesAt = [&](std::uint64_t offset, std::uint64_t count) {
-    std::string bytes(static_cast<std::size_t>(count), '\0');
-    stream.seekg(static_cast<std::streamoff>(offset));
-    if (!stream.read(bytes.data(), static_cast<std::streamsize>(count)))
-      throw bad("cannot be read");
+    std::string bytes = file.bytes(offset, count);
+    if (bytes.size() < count) throw bad("the file ends early");
     return bytes;
   };
   const auto number = [&]<class Value>(std::uint64_t offset, Value) {
@@ -159,6 +153,7 @@ MeshData loadSerialized(const std::string& path, int shapeIndex) {
   const std::uint16_t version = number(offset + 2, k16);
 
   const std::string name = path + ", mesh " + std::to_string(shapeIndex);
+  requireMemoryFor(name, static_cast<double>(end - offset));
   const std::string text = bytesAt(offset + 4, end - offset - 4);
   Inflater in(name, text.data(), text.size());
   const auto flags = in.read<std::uint32_t>();
@@ -170,6 +165,17 @@ MeshData loadSerialized(const std::string& path, int shapeIndex) {
   if (vertexCount > 0xFFFFFFFEull || triangleCount > 0xFFFFFFFEull)
     throw MeshError(name + ": the mesh is too large or its header is damaged");
   const bool isDouble = (flags & kDouble) != 0;
+  const auto times = [&](std::uint32_t flag, double width) { return flags & flag ? width : 0.0; };
+  const double perVertex = (isDouble ? sizeof(double) : sizeof(float)) *
+                           (3 + times(kNormals, 3) + times(kTexCoords, 2) + times(kColors, 3));
+  const double bytes = perVertex * static_cast<double>(vertexCount) +
+                       sizeof(glm::uvec3) * static_cast<double>(triangleCount);
+  constexpr double kMostDeflation = 1032;
+  if (bytes > kMostDeflation * static_cast<double>(text.size()))
+    throw MeshError(name + ": its header says " + std::to_string(vertexCount) + " vertices and " +
+                    std::to_string(triangleCount) + " triangles, which " +
+                    sizeText(static_cast<double>(text.size())) + " of the file can't hold");
+  requireMemoryFor(name, bytes);
   MeshData data;
   data.faceNormals = (flags & kFaceNormals) != 0;
   data.positions = in.vectors<Vec3f>(vertexCount, 3, isDouble, "vertex");
@@ -189,6 +195,17 @@ MeshData loadSerialized(const std::string& path, int shapeIndex) {
     data.triangles.push_back(t);
   }
   return data;
+}
+
+}  // namespace
+
+MeshData loadSerialized(const std::string& path, int shapeIndex) {
+  try {
+    // Only the mesh itself is read: a file may hold thousands.
+    return loadMesh(path, InputFile(path, kLargestData), shapeIndex);
+  } catch (const InputFileError& e) {
+    throw MeshError(path + ": " + e.why());
+  }
 }
 
 }  // namespace h2mc

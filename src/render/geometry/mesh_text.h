@@ -14,6 +14,9 @@ namespace h2mc {
 // Reads a whole file. Throws MeshError.
 std::string readMeshFile(const std::string& path);
 
+// Throws MeshError where there is no memory left for so many bytes; few are not asked about.
+void requireMemoryFor(const std::string& mesh, double bytes);
+
 class MeshText {
  public:
   MeshText(std::string name, std::string_view text) : name_(std::move(name)), text_(text) {}

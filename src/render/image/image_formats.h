@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,13 +16,22 @@ struct FilePicture {
   std::vector<std::string> channels;  // their names
   int alpha = -1;                     // the place of alpha among them, -1: none
   float gamma = 1;                    // the exponent that linearises the values; -1: they are sRGB
-  std::vector<float> values;          // row by row from the top, all channels of a pixel together
+  double rawBytes = 0;                // of all values before they were compressed
+  // Row by row from the top, all channels of a pixel together that were asked for.
+  std::vector<float> values;
 };
+
+struct ChannelRange {
+  int begin = 0, end = 0;
+};
+// Looks at what the header says, before anything is allocated: which channels are to be read. May throw.
+using HeaderCheck = std::function<ChannelRange(const FilePicture& header)>;
 
 class ImageFormats {
  public:
-  // Reads any format that OpenImageIO knows. Throws std::runtime_error: why not, without the file's name.
-  virtual FilePicture read(const std::string& path) const = 0;
+  // Reads any format that OpenImageIO knows. Throws what `check` throws, or std::runtime_error: why not, without the
+  // file's name.
+  virtual FilePicture read(const std::string& path, const HeaderCheck& check) const = 0;
   // The bytes of a file with three channels: Radiance's HDR, PNG. In memory, since the library does not tell when a
   // disk is full. Throw std::runtime_error likewise.
   virtual std::vector<unsigned char> hdrFile(int width, int height,

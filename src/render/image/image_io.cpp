@@ -14,6 +14,7 @@
 #include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -24,9 +25,14 @@
 #include <memory>
 #include <thread>
 
+#include "render/core/index.h"
+#include "render/core/input_file.h"
+#include "render/core/memory.h"
 #include "render/image/atomic_file.h"
 #include "render/image/color_encoding.h"
+#include "render/image/header_size.h"
 #include "render/image/image_formats.h"
+#include "render/image/image_limits.h"
 
 namespace h2mc {
 namespace {
@@ -34,6 +40,8 @@ namespace {
 namespace fs = std::filesystem;
 
 static_assert(sizeof(Rgbf) == 3 * sizeof(float), "pixels are handed to the libraries as floats");
+
+std::uint64_t mostPixels = kMostPixels;
 
 enum class Format { kExr, kHdr, kPng };
 
@@ -53,11 +61,34 @@ Format formatOf(const std::string& path) {
   throw ImageError("cannot read the image \"" + path + "\": " + why);
 }
 
-void checkIsFile(const std::string& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) failReading(path, "there is no such file");
-  if (!fs::is_regular_file(status)) failReading(path, "it is not a file");
+// Of an image that is read.
+InputFile opened(const std::string& path) {
+  try {
+    return InputFile(path, kLargestData);
+  } catch (const InputFileError& e) {
+    failReading(path, e.why());
+  }
+}
+
+// What keeps a header from making the program ask for more memory than the file can be worth. rawBytes: of the values
+// before they were compressed; 0 where it is not known yet.
+void checkHeader(const InputFile& file, double width, double height, int channels,
+                 double rawBytes) {
+  // Twice what a picture of one colour becomes in the format that makes least of it (EXR with DWA: one value for 64,
+  // times deflate's 1032), and what any picture may have.
+  constexpr double kMostCompression = 131072, kAlways = 64e6;
+  const double pixels = width * height;
+  const std::string size = fmt::format("its header says {:.0f} x {:.0f} pixels", width, height);
+  if (pixels > static_cast<double>(mostPixels))
+    throw std::runtime_error(fmt::format(
+        "{}, expected at most {} in all; --max-texture-pixels sets the limit", size, mostPixels));
+  const double raw = std::max(rawBytes, pixels);
+  if (raw > kAlways + kMostCompression * static_cast<double>(file.size()))
+    throw std::runtime_error(fmt::format("{}, {} of values, which a file of {} can't hold", size,
+                                         sizeText(raw),
+                                         sizeText(static_cast<double>(file.size()))));
+  const double bytes = pixels * (channels * sizeof(float) + sizeof(Rgbf));
+  if (bytes > kAlways) requireMemory(bytes, size + ", which", "expected a smaller image");
 }
 
 // Where red, green and blue are among the file's channels; alpha and further channels are not read.
@@ -75,7 +106,7 @@ std::array<int, 3> colorChannels(const FilePicture& picture) {
 
 // The place of one channel by its name, or its part after the last dot, in either case; "y" is that of
 // grey too.
-int channelNamed(const std::string& path, const FilePicture& picture, const std::string& name) {
+int channelNamed(const FilePicture& picture, const std::string& name) {
   const auto folded = [](const std::string& text) {
     std::string result;
     for (const char c : text.substr(text.rfind('.') == std::string::npos ? 0 : text.rfind('.') + 1))
@@ -89,39 +120,34 @@ int channelNamed(const std::string& path, const FilePicture& picture, const std:
   if (folded(name) == "y" && names.size() <= 2) return 0;
   std::string all;
   for (const std::string& n : names) all += (all.empty() ? "" : ", ") + n;
-  failReading(path, "it has no channel \"" + name + "\"; there are " + all);
+  throw std::runtime_error("it has no channel \"" + name + "\"; there are " + all);
 }
 
 // What a PNG's gAMA chunk says, as FilePicture::gamma; 0 where there is none, or an sRGB chunk that goes before
 // it. (OpenImageIO takes most values for sRGB.)
-float gammaOfPng(const std::string& path) {
+float gammaOfPng(const InputFile& file) {
   constexpr double kSrgb = 0.45455, kTolerance = 0.005;  // how the sRGB curve is written as a power
-  std::ifstream stream(path, std::ios::binary);
-  std::array<unsigned char, 12> bytes{};
-  const auto read = [&](std::size_t count) {
-    return static_cast<bool>(
-        stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count)));
+  const auto number = [](const std::string& bytes) {     // of the first four, the largest first
+    std::uint32_t value = 0;
+    for (int i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes[at(i)]);
+    return value;
   };
-  const auto number = [&] {
-    return std::uint32_t(bytes[0]) << 24 | std::uint32_t(bytes[1]) << 16 |
-           std::uint32_t(bytes[2]) << 8 | std::uint32_t(bytes[3]);
-  };
-  if (!read(8) || std::string(bytes.begin() + 1, bytes.begin() + 4) != "PNG") return 0;
+  if (file.bytes(1, 3) != "PNG") return 0;
   float gamma = 0;
-  while (read(8)) {  // length and name of a chunk
-    const std::uint32_t length = number();
-    const std::string name(bytes.begin() + 4, bytes.begin() + 8);
+  for (std::uint64_t offset = 8;;) {
+    const std::string head = file.bytes(offset, 12);  // length and name of a chunk, its first bytes
+    if (head.size() < 12) break;
+    const std::uint32_t length = number(head);
+    const std::string name = head.substr(4, 4);
     if (name == "IDAT" || name == "IEND") break;
     if (name == "sRGB") return 0;
     if (name == "gAMA" && length == 4) {
-      if (!read(4)) break;
-      const double encoded = number() / 1e5;  // the exponent that has made the file's values
+      const double encoded =
+          number(head.substr(8)) / 1e5;  // the exponent that has made the file's values
       if (encoded > 0)
         gamma = std::abs(encoded - kSrgb) < kTolerance ? -1 : static_cast<float>(1 / encoded);
-      stream.seekg(4, std::ios::cur);
-    } else {
-      stream.seekg(static_cast<std::streamoff>(length) + 4, std::ios::cur);
     }
+    offset += std::uint64_t{12} + length;
   }
   return gamma;
 }
@@ -214,32 +240,41 @@ std::vector<float> notNegative(const Image& image) {
 
 }  // namespace
 
+void setMostPixels(std::uint64_t count) { mostPixels = count; }
+
 Image readImage(const std::string& path, float gamma, const std::string& channel) {
-  checkIsFile(path);
+  const InputFile file = opened(path);
   FilePicture picture;
+  std::array<int, 3> rgb{};
+  ChannelRange range;
   try {
-    picture = imageFormats().read(path);
+    if (const auto size = headerSize(file)) checkHeader(file, size->width, size->height, 3, 0);
+    picture = imageFormats().read(path, [&](const FilePicture& header) {
+      rgb = colorChannels(header);
+      if (!channel.empty()) rgb.fill(channelNamed(header, channel));
+      range = {*std::min_element(rgb.begin(), rgb.end()),
+               *std::max_element(rgb.begin(), rgb.end()) + 1};
+      checkHeader(file, header.width, header.height, range.end - range.begin, header.rawBytes);
+      return range;
+    });
   } catch (const std::exception& e) {
     failReading(path, e.what());
   }
 
+  if (!channel.empty() && rgb[0] == picture.alpha) gamma = 1;
   Image image(picture.width, picture.height);
-  std::array<int, 3> rgb = colorChannels(picture);
-  if (!channel.empty()) {
-    rgb.fill(channelNamed(path, picture, channel));
-    if (rgb[0] == picture.alpha) gamma = 1;
-  }
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    const float* p = picture.values.data() + i * picture.channels.size();
-    image.pixels[i] = Rgbf(p[rgb[0]], p[rgb[1]], p[rgb[2]]);
+    const float* p = picture.values.data() + i * at(range.end - range.begin);
+    const auto of = [&](int c) { return p[rgb[at(c)] - range.begin]; };
+    image.pixels[i] = Rgbf(of(0), of(1), of(2));
   }
-  if (gamma == 0) gamma = gammaOfPng(path);
+  if (gamma == 0) gamma = gammaOfPng(file);
   linearise(image, gamma == 0 ? picture.gamma : gamma);
   return image;
 }
 
 ImageAttributes readAttributes(const std::string& path) {
-  checkIsFile(path);
+  opened(path);
   try {
     const Imf::InputFile file(path.c_str());
     ImageAttributes attributes;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "ad/traits.h"
 #include "render/scene/spectrum.h"
 #include "render/scene/suggestion.h"
 #include "render/scene/value_text.h"
@@ -39,7 +40,8 @@ bool isPlainSpectrum(const XmlElement& element) {
          isOneOf(lowerCase(element.attribute("type")), {"uniform", "d65", "srgb"});
 }
 
-Rgbf readColor(const SceneDocument& document, const XmlElement& element, bool mayBeNegative) {
+// Before it is known to be within float.
+static Rgbf anyColor(const SceneDocument& document, const XmlElement& element, bool mayBeNegative) {
   if (isPlainSpectrum(element)) {
     // White (d65 is the white of RGB) times the numbers and colours inside.
     element.allowAttributes({"name", "type", "id"});
@@ -77,9 +79,14 @@ Rgbf readColor(const SceneDocument& document, const XmlElement& element, bool ma
     if (element.name == "spectrum" && element.find("filename")) {
       element.allowAttributes({"name", "filename"});
       attribute = "filename";
-      const std::string text =
-          pairsOfFile(readTextFile(resolveFile(document, element, "filename")));
-      return parseSpectrum(text, mayBeNegative);
+      const std::string file = resolveFile(document, element, "filename");
+      std::string content;
+      try {
+        content = readTextFile(file);
+      } catch (const std::runtime_error& e) {
+        throw sourceError(element.place("filename"), "cannot read \"" + file + "\": " + e.what());
+      }
+      return parseSpectrum(pairsOfFile(content), mayBeNegative);
     }
     element.allowAttributes({"name", "value", "intent"});
     const std::string& text = element.require("value");
@@ -94,6 +101,14 @@ Rgbf readColor(const SceneDocument& document, const XmlElement& element, bool ma
                       "expected a colour: value=\"r, g, b\", value=\"grey\", value=\"#rrggbb\" or, "
                       "in a <spectrum>, value=\"wavelength:value, ...\"");
   }
+}
+
+Rgbf readColor(const SceneDocument& document, const XmlElement& element, bool mayBeNegative) {
+  const Rgbf color = anyColor(document, element, mayBeNegative);
+  if (!ad::isFinite(color))
+    throw sourceError(element.place(), "the colour is too large",
+                      "expected products, and sums over a spectrum, up to 3.4e38");
+  return color;
 }
 
 }  // namespace h2mc

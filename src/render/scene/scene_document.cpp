@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <set>
 
+#include "render/core/input_file.h"
 #include "render/scene/old_spellings.h"
 #include "render/scene/problems.h"
 #include "render/scene/suggestion.h"
@@ -40,11 +42,19 @@ class Loader {
     auto file = std::make_shared<SourceFile>();
     file->name = path;
     file->folder = folderOf(path);
+    const auto fail = [&](const std::string& why) {
+      if (from.file) throw sourceError(from, "cannot read \"" + path + "\": " + why);
+      throw SceneError(path + ": error: cannot read the scene: " + why);
+    };
     try {
-      file->text = toUtf8(readTextFile(path));
-    } catch (const std::exception& e) {
-      if (from.file) throw sourceError(from, "cannot read \"" + path + "\": " + e.what());
-      throw SceneError(path + ": error: cannot read the scene: " + e.what());
+      const InputFile input(path, kLargestText);
+      textBytes_ += input.size();
+      if (textBytes_ > kLargestText)
+        fail("with it the scene has " + sizeText(static_cast<double>(textBytes_)) +
+             " of text, expected at most " + sizeText(static_cast<double>(kLargestText)));
+      file->text = toUtf8(input.whole());
+    } catch (const InputFileError& e) {
+      fail(e.why());
     }
     XmlElement root = parseXml(file, document_.strays);
     open_.push_back(path);
@@ -168,6 +178,7 @@ class Loader {
   void substitute(const XmlElement& element, XmlAttribute& attribute) {
     std::size_t at = attribute.value.find('$');
     if (at == std::string::npos) return;
+    constexpr std::size_t kLongestValue = 1 << 20;  // names made of names can grow without end
     std::string result;
     const std::string& text = attribute.value;
     std::size_t done = 0;
@@ -188,6 +199,10 @@ class Loader {
                               suggestion(whole, names));
       }
       used_.insert(found->first);
+      if (result.size() + found->second.size() > kLongestValue)
+        throw sourceError({element.file, attribute.valueOffset + at},
+                          "with \"$" + found->first + "\" the value is too long",
+                          "expected at most " + std::to_string(kLongestValue) + " characters");
       result += text.substr(done, at - done) + found->second;
       done = at + 1 + found->first.size();
       at = text.find('$', done);
@@ -200,6 +215,7 @@ class Loader {
   std::set<std::string> used_, defaults_;
   std::vector<std::string> open_;
   std::size_t included_ = 0;
+  std::uint64_t textBytes_ = 0;
 };
 
 // The last error met; all ids are known nonetheless, the first of two with the same.

@@ -2,8 +2,8 @@
 #include "render/scene/source_text.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
+
+#include "render/core/input_file.h"
 
 namespace h2mc {
 namespace {
@@ -76,23 +76,11 @@ SceneError sourceError(const SourcePlace& place, const std::string& message,
 }
 
 std::string readTextFile(const std::string& path) {
-  std::error_code code;
-  const auto status = std::filesystem::status(path, code);
-  if (status.type() == std::filesystem::file_type::not_found)
-    throw std::runtime_error("no such file");
-  if (code) throw std::runtime_error(code.message());
-  if (std::filesystem::is_directory(status)) throw std::runtime_error("it is a folder");
-  if (!std::filesystem::is_regular_file(status)) throw std::runtime_error("not a regular file");
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw std::runtime_error("it cannot be opened for reading");
-  std::string text;
-  const auto size = std::filesystem::file_size(path, code);
-  if (!code) text.reserve(static_cast<std::size_t>(size));
-  char buffer[1 << 16];
-  while (stream.read(buffer, sizeof buffer) || stream.gcount() > 0)
-    text.append(buffer, static_cast<std::size_t>(stream.gcount()));
-  if (stream.bad()) throw std::runtime_error("it cannot be read");
-  return text;
+  try {
+    return InputFile(path, kLargestText).whole();
+  } catch (const InputFileError& e) {
+    throw std::runtime_error(e.why());
+  }
 }
 
 }  // namespace h2mc
