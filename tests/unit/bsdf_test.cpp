@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "bsdf_cases.h"
+#include "render/bsdf/quadrature.h"
 #include "render/core/random.h"
 
 namespace h2mc {
@@ -305,6 +306,42 @@ TEST(Bsdf, RoughTransmittanceIsTheSmoothOneWithoutRoughness) {
   const RoughTransmittance t(f, 1.5);
   for (double c = 1e-4; c < 1; c *= 1.7)
     EXPECT_NEAR(t.evaluate(c), RoughTransmittance::integrate(f, 1.5, c), 2e-5) << c;
+}
+
+// 2 int_0^1 T(c) c dc of what arrives from inside, with nodes gathered at the smooth interface's critical cosine.
+double throughFromInside(const Microfacet& f, double eta) {
+  const double critical = eta > 1 ? std::sqrt(1 - 1 / (eta * eta)) : 0;
+  double through = 0;
+  for (const auto& [s, weight] : gaussLegendre(64)) {
+    const double above = critical + (1 - critical) * s * s;
+    through +=
+        weight * 4 * (1 - critical) * s * above * RoughTransmittance::integrate(f, 1 / eta, above);
+    if (critical > 0) {
+      const double below = critical * (1 - s * s);
+      through +=
+          weight * 4 * critical * s * below * RoughTransmittance::integrate(f, 1 / eta, below);
+    }
+  }
+  return through;
+}
+
+TEST(Bsdf, RoughTransmittanceIsReciprocal) {
+  for (const auto d : {kGgx, kBeckmann, FacetDistribution::kPhong})
+    for (const float alpha : {0.001f, 0.05f, 0.3f, 1.f})
+      for (const double eta : {0.7, 1.1, 1.5, 2.4}) {
+        const Microfacet f = facets(d, alpha);
+        EXPECT_NEAR(1 - RoughTransmittance(f, eta).internalReflectance(), throughFromInside(f, eta),
+                    5e-4)
+            << int(d) << " " << alpha << " " << eta;
+      }
+}
+
+TEST(Bsdf, RoughTransmittanceIsSharedByEqualParameters) {
+  const auto a = RoughTransmittance::shared(facets(kGgx, 0.25f), 1.5);
+  EXPECT_EQ(a, RoughTransmittance::shared(facets(kGgx, 0.25f), 1.5));
+  EXPECT_NE(a, RoughTransmittance::shared(facets(kGgx, 0.26f), 1.5));
+  EXPECT_NE(a, RoughTransmittance::shared(facets(kBeckmann, 0.25f), 1.5));
+  EXPECT_NE(a, RoughTransmittance::shared(facets(kGgx, 0.25f), 1.4));
 }
 
 }  // namespace

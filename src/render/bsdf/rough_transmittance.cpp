@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "render/bsdf/rough_transmittance.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <map>
 #include <mutex>
 #include <tuple>
@@ -33,6 +36,33 @@ double overGgx(const Microfacet& facets, double c) {
   const double a2 = double(facets.alpha) * double(facets.alpha), c2 = c * c;
   const double e = std::max(2 / a2 - 2, 0.0), cos2 = c2 / (c2 + a2 * (1 - c2));
   return a2 * (e + 2) / 2 * std::pow(cos2, e / 2 + 2) / (c2 * c2);
+}
+
+// Diffuse light that goes through, 2 int_0^1 T(c) c dc. The flux of diffuse light of one radiance through an interface
+// that is reciprocal is the same both ways, per square of the index: the share from inside is that from outside over
+// eta^2. Each is computed from the side that has no total reflection, whose border quadratures resolve badly.
+
+// From outside, exactly that of the spline, whose pieces are cubics in sqrt(c).
+template <class Pieces>
+double splineMean(const Pieces& pieces) {
+  static const auto nodes = gaussLegendre(4);  // exact up to degree 7
+  double sum = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const auto& p = pieces[i];
+    for (const auto& [t, weight] : nodes) {
+      const double x = static_cast<double>(i) + t;
+      sum += weight * (((t * p.c3 + p.c2) * t + p.c1) * t + p.c0) * x * x * x;
+    }
+  }
+  return sum * 4 / std::pow(static_cast<double>(pieces.size()), 4);
+}
+
+// From inside, for an outside of the higher index.
+double meanFromInside(const Microfacet& facets, double eta) {
+  double through = 0;
+  for (const auto& [s, weight] : gaussLegendre(48))
+    through += weight * 4 * s * s * s * RoughTransmittance::integrate(facets, 1 / eta, s * s);
+  return through;
 }
 
 }  // namespace
@@ -82,7 +112,12 @@ double RoughTransmittance::integrate(const Microfacet& facets, double eta, doubl
 RoughTransmittance::RoughTransmittance(const Microfacet& facets, double eta) {
   constexpr int n = kIntervals;
   std::vector<double> f(n + 1), m(n + 1), diagonal(n + 1), right(n + 1);
-  for (int i = 0; i <= n; ++i) f[i] = integrate(facets, eta, double(i) * i / (double(n) * n));
+  // Isolated: a thread that waits here must not begin to read something else.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(0, n + 1, [&](int i) {
+      f[at(i)] = integrate(facets, eta, double(i) * i / (double(n) * n));
+    });
+  });
   // Slopes m per interval of a spline with m[0] = 0 (the function is smooth in c, so even in
   // sqrt(c)) and a one-sided difference at the other end: m[i-1] + 4 m[i] + m[i+1] = 3 (f[i+1] -
   // f[i-1]).
@@ -102,19 +137,8 @@ RoughTransmittance::RoughTransmittance(const Microfacet& facets, double eta) {
     pieces_[at(i)] = {f[i], m[i], 3 * rise - 2 * m[i] - m[i + 1], m[i] + m[i + 1] - 2 * rise};
   }
 
-  // Diffuse light from inside: 2 int_0^1 T(c) c dc, with nodes gathered at the smooth interface's
-  // critical cosine, where T rises like a root.
-  const double critical = eta > 1 ? std::sqrt(1 - 1 / (eta * eta)) : 0;
-  double through = 0;
-  for (const auto& [s, weight] : gaussLegendre(48)) {
-    const double above = critical + (1 - critical) * s * s;
-    through += weight * 2 * (1 - critical) * s * 2 * above * integrate(facets, 1 / eta, above);
-    if (critical > 0) {
-      const double below = critical * (1 - s * s);
-      through += weight * 2 * critical * s * 2 * below * integrate(facets, 1 / eta, below);
-    }
-  }
-  internalReflectance_ = 1 - through;
+  internalReflectance_ =
+      1 - (eta > 1 ? splineMean(pieces_) / (eta * eta) : meanFromInside(facets, eta));
 }
 
 std::shared_ptr<const RoughTransmittance> RoughTransmittance::shared(const Microfacet& facets,
