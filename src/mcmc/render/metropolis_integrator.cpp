@@ -9,6 +9,7 @@
 
 #include "mcmc/populations/ensemble.h"
 #include "mcmc/render/direct_lighting.h"
+#include "mcmc/render/metropolis_memory.h"
 #include "render/core/archive.h"
 #include "render/integrator/common_options.h"
 #include "render/integrator/parallel_rounds.h"
@@ -290,6 +291,10 @@ RenderResult MetropolisRender::withChains() {
 }
 
 RenderResult MetropolisRender::run() {
+  const int wanted = options_.integer("bootstrapSamples");
+  // At most: where samples take no time.
+  requireMetropolisMemory(scene_, options_, request_, maxLength_,
+                          wanted > 0 ? wanted : bootstrapSamples(1e-9));
   if (request_.resume) archiveRender(*request_.resume);
   restored_ = stage_ != Stage::kDirect;
   if (stage_ == Stage::kDirect) {
@@ -297,7 +302,6 @@ RenderResult MetropolisRender::run() {
     extendDirect(0);
   }
   if (minLength_ > maxLength_) return directAlone();
-  const int wanted = options_.integer("bootstrapSamples");
   const double before = clock_.wallSeconds();
   bootstrap_.emplace(scene_, minLength_, maxLength_, wanted > 0 ? wanted : kLeastBootstrap,
                      request_.seed, request_.threads, request_.stop);

@@ -8,6 +8,7 @@
 #include "render/core/index.h"
 #include "render/core/unit_interval.h"
 #include "render/integrator/common_options.h"
+#include "render/integrator/memory_need.h"
 
 namespace h2mc {
 namespace {
@@ -200,6 +201,9 @@ class SamplesInProgress final : public RenderInProgress {
 
 RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
                            int defaultSamplesPerPixel, const MakeSampler& makeSampler) {
+  // The film, the image that becomes of it, and what of a round waits to be added.
+  requireMemory(
+      {filmMemory(scene.film, 24 + sizeof(Rgbf)), {kMostARound * 48.0, "samples of a round", ""}});
   RenderClock clock;
   SampledFilm sampled(scene, makeSampler);
   RoundsPlan plan;

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "mcmc/render/metropolis_memory.h"
+
+#include <fmt/format.h>
+
+#include "mcmc/chain/chain.h"
+#include "render/core/index.h"
+#include "render/integrator/memory_need.h"
+
+namespace h2mc {
+namespace {
+
+// Bytes a pixel. The chains' films and sums (ImageEstimate) are 48, of which 24 go between two epochs; then there is
+// either a film for direct light, or the pictures that make an importance map. Direct light's own picture stays.
+constexpr double kBetweenEpochs = 24 + 24, kInEpoch = 48, kImage = sizeof(Rgbf);
+
+double bytesAPath(int maxLength) {
+  return static_cast<double>(sizeof(Path)) +
+         2.0 * static_cast<double>(at(maxLength) + 2) * static_cast<double>(sizeof(TracedVertex));
+}
+
+// A chain has a path and a proposal, and a third path is where it starts or goes on to; what kernels keep of its states,
+// and what it splats in a round, measured with all methods.
+double bytesAChain(int maxLength) {
+  constexpr double kKept = 6000;
+  return 3 * bytesAPath(maxLength) + kKept;
+}
+
+}  // namespace
+
+void requireMetropolisMemory(const Scene& scene, const OptionSet& options,
+                             const RenderRequest& request, int maxLength,
+                             long long bootstrapSamples) {
+  const bool direct = options.integer("directSamples") != 0;
+  const bool marks = !request.marks.empty();
+  const double pixel =
+      (direct ? kImage : 0) + (marks ? kInEpoch + (direct ? 24 : kImage) : kBetweenEpochs);
+  const double chains = options.integer("chains"), samples = static_cast<double>(bootstrapSamples);
+  requireMemory({filmMemory(scene.film, pixel),
+                 {chains * bytesAChain(maxLength),
+                  fmt::format("{:.0f} chains of paths of up to {} edges", chains, maxLength),
+                  "expected fewer by the option \"chains\""},
+                 {samples * sizeof(double), fmt::format("{:.0f} bootstrap samples", samples),
+                  "expected fewer by the option \"bootstrapSamples\""}});
+}
+
+}  // namespace h2mc
