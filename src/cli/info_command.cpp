@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/statistics_table.h"
+#include "render/scene/change_note.h"
 #include "render/scene/kinds.h"
 #include "render/scene/scene.h"
 #include "render/scene/scene_reader.h"
@@ -156,7 +157,14 @@ int info(const InfoOptions& options) {
   printCamera(scene);
   printMotion(scene);
   printIntegrator(scene.integrator);
-  for (const std::string& note : scene.notes) line("note", note);
+  std::vector<std::string> changes;
+  for (const std::string& note : scene.notes)
+    if (note.starts_with(kChangeNote))
+      changes.push_back(note.substr(kChangeNote.size()));
+    else
+      line("note", note);
+  if (!changes.empty()) fmt::print("\nChanged on the way in:\n");
+  for (const std::string& change : changes) fmt::print("{}\n", change);
   return kSuccess;
 }
 
@@ -172,7 +180,10 @@ void addInfoCommand(CLI::App& app, Run& run) {
   addConfine(*command, options->confine);
   command->add_flag("--strict", options->strict, "Take every warning for an error")
       ->excludes("--permissive");
-  command->footer("What is not used, or left out because nothing needs it, is in the notes.");
+  command->footer(
+      "What is not used, or left out because nothing needs it, is in the notes; parameters whose "
+      "value is not used "
+      "as it is in the file are at the end, under \"Changed on the way in\".");
   command->callback([options, &run] { run = [options] { return info(*options); }; });
 }
 

@@ -70,7 +70,7 @@ TEST_F(SceneMaterials, MistakesInBlendsAreSaid) {
       std::string::npos);
   EXPECT_NE(error("<bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"1, -1\"/>" + two +
                   "</bsdf>")
-                .find("must not be negative"),
+                .find("a weight is -1, expected numbers from 0 to 1000"),
             std::string::npos);
   EXPECT_NE(error("<bsdf type=\"blendbsdf\">" + std::string(kRed) + "</bsdf>").find("expected two"),
             std::string::npos);

@@ -1,18 +1,25 @@
 // SPDX-License-Identifier: MIT
 // The table of BSDFs and how each is made from a scene's parameters. Names, defaults and meaning are
 // Mitsuba 0.6's.
+#include <fmt/format.h>
+
 #include <charconv>
 #include <numbers>
 
 #include "render/bsdf/material.h"
 #include "render/bsdf/refractive_index.h"
+#include "render/scene/change_note.h"
 #include "render/scene/properties.h"
+#include "render/scene/ranges.h"
 
 namespace h2mc {
 
 namespace {
 
 using enum ParameterType;
+
+constexpr float kLargestRoughness = 100;
+constexpr float kLargestFactor = 1000;  // of reflectances and transmittances
 
 constexpr Parameter kConserve = {"ensureEnergyConservation", kBoolean, "true",
                                  "scale reflectances that exceed 1"};
@@ -22,11 +29,13 @@ constexpr Parameter kTransmittance = {"specularTransmittance", kTexture, "1",
 constexpr Parameter kDistribution = {"distribution", kString, "beckmann", "of the facets' normals",
                                      "beckmann|ggx|phong"};
 constexpr Parameter kAlpha = {"alpha", kNumber, "0.1",
-                              "roughness: the facets' root mean square slope"};
+                              "roughness, 0 to 100: the facets' root mean square slope"};
 constexpr Parameter kTexturedAlpha = {"alpha", kTexture, "0.1",
-                                      "roughness: the facets' root mean square slope"};
-constexpr Parameter kAlphaU = {"alphaU", kNumber, "0.1", "roughness along u, the same as along v"};
-constexpr Parameter kAlphaV = {"alphaV", kNumber, "0.1", "roughness along v, the same as along u"};
+                                      "roughness, 0 to 100: the facets' root mean square slope"};
+constexpr Parameter kAlphaU = {"alphaU", kNumber, "0.1",
+                               "roughness along u, 0 to 100, the same as along v"};
+constexpr Parameter kAlphaV = {"alphaV", kNumber, "0.1",
+                               "roughness along v, 0 to 100, the same as along u"};
 constexpr Parameter kSampleVisible = {"sampleVisible",
                                       kBoolean,
                                       "true",
@@ -35,12 +44,18 @@ constexpr Parameter kSampleVisible = {"sampleVisible",
                                       "",
                                       true};
 constexpr Parameter kExteriorIndex = {
-    "extIOR", kString, "air", "refractive index outside: a number or a name", "", "ext_ior"};
+    "extIOR", kString,  "air", "refractive index outside: a number from 0.01 to 100 or a name",
+    "",       "ext_ior"};
 constexpr Parameter kGlassIndex = {
-    "intIOR", kString, "bk7", "refractive index inside: a number or a name", "", "int_ior"};
-constexpr Parameter kPlasticIndex = {
-    "intIOR", kString,  "polypropylene", "refractive index of the coat: a number or a name",
+    "intIOR", kString,  "bk7", "refractive index inside: a number from 0.01 to 100 or a name",
     "",       "int_ior"};
+constexpr Parameter kPlasticIndex = {
+    "intIOR",
+    kString,
+    "polypropylene",
+    "refractive index of the coat: a number from 0.01 to 100 or a name",
+    "",
+    "int_ior"};
 constexpr Parameter kMaterialName = {"material", kString, "Cu",
                                      "a metal's name, or none: reflects everything"};
 constexpr bool kMayBeNegative = true;  // measured channels dip below zero
@@ -48,8 +63,8 @@ constexpr Parameter kEta = {"eta", kColor, "",    "refractive index; the materia
                             "",    "",     false, kMayBeNegative};
 constexpr Parameter kK = {"k", kColor, "",    "extinction coefficient; the material's by default",
                           "",  "",     false, kMayBeNegative};
-constexpr Parameter kExteriorEta = {"extEta", kString, "air",
-                                    "refractive index outside: a number or a name"};
+constexpr Parameter kExteriorEta = {
+    "extEta", kString, "air", "refractive index outside: a number from 0.01 to 100 or a name"};
 constexpr Parameter kNonlinear = {"nonlinear", kBoolean, "false",
                                   "colour shifts by scattering inside the coat"};
 constexpr Parameter kDiffuseReflectance = {"diffuseReflectance", kTexture, "0.5",
@@ -60,7 +75,7 @@ constexpr Parameter kDiffuseParameters[] = {
 constexpr Parameter kPhongParameters[] = {
     kDiffuseReflectance,
     {"specularReflectance", kTexture, "0.2", "reflectance of the glossy part"},
-    {"exponent", kNumber, "30", "of the cosine around the mirror direction"},
+    {"exponent", kNumber, "30", "of the cosine around the mirror direction, 0 to 1e8"},
     kConserve};
 constexpr Parameter kConductorParameters[] = {kMaterialName, kEta,      kK,
                                               kExteriorEta,  kSpecular, kConserve};
@@ -87,13 +102,14 @@ constexpr Parameter kDiffuseTransmitterParameters[] = {
     {"transmittance", kTexture, "0.5", "diffuse transmittance"}, kConserve};
 constexpr Parameter kRoughDiffuseParameters[] = {
     {"reflectance", kTexture, "0.5", "diffuse reflectance", "", "diffuseReflectance"},
-    {"alpha", kNumber, "0.2", "roughness: root 2 times the facets' standard deviation in radians"},
+    {"alpha", kNumber, "0.2",
+     "roughness, 0 to 100: root 2 times the facets' standard deviation in radians"},
     {"useFastApprox", kBoolean, "false", "the approximation that the authors give"},
     kConserve};
 constexpr Parameter kWardParameters[] = {
     {"variant", kString, "balanced", "how the lobe is normalised", "ward|ward-duer|balanced"},
-    {"alphaU", kNumber, "0.1", "roughness along u"},
-    {"alphaV", kNumber, "0.1", "roughness along v"},
+    {"alphaU", kNumber, "0.1", "roughness along u, 0 to 100"},
+    {"alphaV", kNumber, "0.1", "roughness along v, 0 to 100"},
     kDiffuseReflectance,
     {"specularReflectance", kTexture, "0.2", "reflectance of the glossy part"},
     kConserve};
@@ -111,10 +127,14 @@ constexpr Parameter kMixtureParameters[] = {
 
 float largest(const Rgbf& c) { return std::max({c.x, c.y, c.z}); }
 
-// By how much Mitsuba scales reflectances whose sum may exceed 1.
-float energyScale(const Properties& p, const Rgbf& highest) {
-  return largest(highest) > 1 && p.boolean("ensureEnergyConservation") ? 0.99f / largest(highest)
-                                                                       : 1;
+// By how much Mitsuba scales reflectances whose sum may exceed 1. `name`: of the parameter that they are.
+float energyScale(const Properties& p, std::string_view name, const Rgbf& highest) {
+  constexpr float kMost = 0.99f;
+  if (!(largest(highest) > 1 && p.boolean("ensureEnergyConservation"))) return 1;
+  const float scale = kMost / largest(highest);
+  noteChange(p, name, fmt::format("up to {:g}", largest(highest)),
+             fmt::format("times {:g}, to conserve energy", scale));
+  return scale;
 }
 
 float refractiveIndex(const Properties& p, std::string_view name) {
@@ -123,7 +143,11 @@ float refractiveIndex(const Properties& p, std::string_view name) {
   float number = 0;
   const auto [stop, error] = std::from_chars(text.data(), end, number);
   if (error == std::errc() && stop == end) {
-    if (!(number > 0) || !(number < 100)) p.fail(name, "a refractive index must be positive");
+    constexpr float kLowest = 0.01f, kHighest = 100;
+    if (!(number >= kLowest && number <= kHighest))
+      p.fail(name,
+             fmt::format("\"{}\" is {:g}, expected a refractive index from {:g} to {:g}, or a name",
+                         name, number, kLowest, kHighest));
     return number;
   }
   const auto index = dielectricIndex(text);
@@ -141,10 +165,14 @@ float relativeIndex(const Properties& p, bool mustDiffer) {
   return inside / outside;
 }
 
+float atLeastSmallest(const Properties& p, std::string_view name, float alpha) {
+  if (alpha >= kSmallestRoughness) return alpha;
+  noteChange(p, name, fmt::format("{:g}", alpha), fmt::format("{:g}", kSmallestRoughness));
+  return kSmallestRoughness;
+}
+
 float roughness(const Properties& p, std::string_view name) {
-  const float alpha = p.number(name);
-  if (!(alpha >= 0)) p.fail(name, "a roughness must not be negative");
-  return std::max(alpha, kSmallestRoughness);
+  return atLeastSmallest(p, name, numberIn(p, name, 0, kLargestRoughness));
 }
 
 FacetDistribution readDistribution(const Properties& p) {
@@ -162,13 +190,25 @@ void readFacets(const Properties& p, FacetSurface& b) {
       p.fail("alphaV", "anisotropic roughness is not supported: alphaU and alphaV must be equal");
     return;
   }
-  const TexturePtr alpha = p.texture("alpha");
+  const TexturePtr alpha = textureUpTo(p, "alpha", kLargestRoughness);
   const Rgbf mean = average(*alpha);
   // One number is to stay the same number.
   const float value = mean.x == mean.y && mean.x == mean.z ? mean.x : scalarOf(mean);
-  if (!(value >= 0)) p.fail("alpha", "a roughness must not be negative");
-  b.facets.alpha = std::max(value, kSmallestRoughness);
+  b.facets.alpha = atLeastSmallest(p, "alpha", value);
   if (!std::holds_alternative<ConstantTexture>(*alpha)) b.roughness = alpha;
+}
+
+// Of a metal's index: its absolute value, since reflectance depends on the squares alone.
+Rgbf conductorColor(const Properties& p, std::string_view name) {
+  constexpr float kHighest = 1e4f;
+  const Rgbf given = p.color(name), color = glm::abs(given);
+  if (given != color)
+    noteChange(p, name, fmt::format("({:g}, {:g}, {:g})", given.x, given.y, given.z),
+               "its absolute value");
+  if (!(largest(color) <= kHighest))
+    p.fail(name, fmt::format("\"{}\" is up to {:g}, expected values from {:g} to {:g}", name,
+                             largest(color), -kHighest, kHighest));
+  return color;
 }
 
 ConductorIndex readConductor(const Properties& p) {
@@ -180,9 +220,8 @@ ConductorIndex readConductor(const Properties& p) {
   } else if (name != "none" && name != "None") {
     p.fail("material", "unknown material \"" + name + "\"; there are " + conductorNames());
   }
-  // Reflectance depends on their squares alone.
-  if (p.given("eta")) eta = glm::abs(p.color("eta"));
-  if (p.given("k")) k = glm::abs(p.color("k"));
+  if (p.given("eta")) eta = conductorColor(p, "eta");
+  if (p.given("k")) k = conductorColor(p, "k");
   const float outside = refractiveIndex(p, "extEta");
   return {eta / outside, k / outside, eta == Rgbf(0)};
 }
@@ -195,18 +234,17 @@ float specularWeight(const Rgbf& specular, const Rgbf& diffuse) {
 
 Bsdf createDiffuse(const Properties& p) {
   Diffuse b;
-  b.reflectance = p.texture("reflectance");
-  b.scale = energyScale(p, maximum(*b.reflectance));
+  b.reflectance = textureUpTo(p, "reflectance", kLargestFactor);
+  b.scale = energyScale(p, "reflectance", maximum(*b.reflectance));
   return b;
 }
 
 Bsdf createPhong(const Properties& p) {
   Phong b;
-  b.diffuse = p.texture("diffuseReflectance");
-  b.specular = p.texture("specularReflectance");
-  b.exponent = p.number("exponent");
-  if (!(b.exponent >= 0)) p.fail("exponent", "the exponent must not be negative");
-  b.scale = energyScale(p, maximum(*b.diffuse) + maximum(*b.specular));
+  b.diffuse = textureUpTo(p, "diffuseReflectance", kLargestFactor);
+  b.specular = textureUpTo(p, "specularReflectance", kLargestFactor);
+  b.exponent = numberIn(p, "exponent", 0, 1e8f);
+  b.scale = energyScale(p, "diffuseReflectance", maximum(*b.diffuse) + maximum(*b.specular));
   b.specularWeight = specularWeight(average(*b.specular), average(*b.diffuse));
   return b;
 }
@@ -214,8 +252,8 @@ Bsdf createPhong(const Properties& p) {
 Bsdf createConductor(const Properties& p) {
   Conductor b;
   b.index = readConductor(p);
-  b.specular = p.texture("specularReflectance");
-  b.scale = energyScale(p, maximum(*b.specular));
+  b.specular = textureUpTo(p, "specularReflectance", kLargestFactor);
+  b.scale = energyScale(p, "specularReflectance", maximum(*b.specular));
   return b;
 }
 
@@ -223,17 +261,17 @@ Bsdf createRoughConductor(const Properties& p) {
   RoughConductor b;
   readFacets(p, b);
   b.index = readConductor(p);
-  b.specular = p.texture("specularReflectance");
-  b.scale = energyScale(p, maximum(*b.specular));
+  b.specular = textureUpTo(p, "specularReflectance", kLargestFactor);
+  b.scale = energyScale(p, "specularReflectance", maximum(*b.specular));
   return b;
 }
 
 template <class B>
 void readInterface(const Properties& p, B& b) {
-  b.specularReflectance = p.texture("specularReflectance");
-  b.specularTransmittance = p.texture("specularTransmittance");
-  b.reflectanceScale = energyScale(p, maximum(*b.specularReflectance));
-  b.transmittanceScale = energyScale(p, maximum(*b.specularTransmittance));
+  b.specularReflectance = textureUpTo(p, "specularReflectance", kLargestFactor);
+  b.specularTransmittance = textureUpTo(p, "specularTransmittance", kLargestFactor);
+  b.reflectanceScale = energyScale(p, "specularReflectance", maximum(*b.specularReflectance));
+  b.transmittanceScale = energyScale(p, "specularTransmittance", maximum(*b.specularTransmittance));
 }
 
 Bsdf createDielectric(const Properties& p) {
@@ -253,10 +291,10 @@ Bsdf createRoughDielectric(const Properties& p) {
 
 template <class B>
 void readCoat(const Properties& p, B& b, double internalReflectance) {
-  b.specular = p.texture("specularReflectance");
-  b.specularScale = energyScale(p, maximum(*b.specular));
-  const TexturePtr diffuse = p.texture("diffuseReflectance");
-  const float scale = energyScale(p, maximum(*diffuse));
+  b.specular = textureUpTo(p, "specularReflectance", kLargestFactor);
+  b.specularScale = energyScale(p, "specularReflectance", maximum(*b.specular));
+  const TexturePtr diffuse = textureUpTo(p, "diffuseReflectance", kLargestFactor);
+  const float scale = energyScale(p, "diffuseReflectance", maximum(*diffuse));
   b.specularWeight =
       specularWeight(average(*b.specular) * b.specularScale, average(*diffuse) * scale);
   b.base = LayeredDiffuse(diffuse, scale, internalReflectance, b.eta, p.boolean("nonlinear"));
@@ -287,18 +325,16 @@ Bsdf createThinDielectric(const Properties& p) {
 
 Bsdf createDiffuseTransmitter(const Properties& p) {
   DiffuseTransmitter b;
-  b.transmittance = p.texture("transmittance");
-  b.scale = energyScale(p, maximum(*b.transmittance));
+  b.transmittance = textureUpTo(p, "transmittance", kLargestFactor);
+  b.scale = energyScale(p, "transmittance", maximum(*b.transmittance));
   return FurtherBsdf{b};
 }
 
 Bsdf createRoughDiffuse(const Properties& p) {
   RoughDiffuse b;
-  b.reflectance = p.texture("reflectance");
-  b.scale = energyScale(p, maximum(*b.reflectance));
-  const float alpha = p.number("alpha");
-  if (!(alpha >= 0)) p.fail("alpha", "a roughness must not be negative");
-  b.sigma = alpha * std::numbers::sqrt2_v<float> / 2;
+  b.reflectance = textureUpTo(p, "reflectance", kLargestFactor);
+  b.scale = energyScale(p, "reflectance", maximum(*b.reflectance));
+  b.sigma = numberIn(p, "alpha", 0, kLargestRoughness) * std::numbers::sqrt2_v<float> / 2;
   b.fast = p.boolean("useFastApprox");
   return FurtherBsdf{b};
 }
@@ -310,9 +346,9 @@ Bsdf createWard(const Properties& p) {
   if (variant == "ward-duer") b.variant = WardVariant::kDuer;
   b.alphaU = roughness(p, "alphaU");
   b.alphaV = roughness(p, "alphaV");
-  b.diffuse = p.texture("diffuseReflectance");
-  b.specular = p.texture("specularReflectance");
-  b.scale = energyScale(p, maximum(*b.diffuse) + maximum(*b.specular));
+  b.diffuse = textureUpTo(p, "diffuseReflectance", kLargestFactor);
+  b.specular = textureUpTo(p, "specularReflectance", kLargestFactor);
+  b.scale = energyScale(p, "diffuseReflectance", maximum(*b.diffuse) + maximum(*b.specular));
   b.specularWeight = specularWeight(average(*b.specular), average(*b.diffuse));
   return FurtherBsdf{b};
 }

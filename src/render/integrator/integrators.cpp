@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <array>
+#include <fmt/format.h>
 
+#include <array>
+#include <stdexcept>
+
+#include "ad/traits.h"
+#include "render/core/user_error.h"
 #include "render/integrator/bdpt_integrator.h"
 #include "render/integrator/path_integrator.h"
 #include "render/scene/scene.h"
@@ -13,10 +18,22 @@ std::span<const IntegratorFactory> renderIntegrators() {
 }
 
 void finish(const Scene& scene, RenderResult& result) {
-  const auto unit = static_cast<float>(scene.radianceUnit);
-  for (Rgbf& pixel : result.image.pixels) pixel = glm::max(pixel * unit, Rgbf(0));
-  result.meanLuminance *= scene.radianceUnit;
-  result.meanLuminanceError *= scene.radianceUnit;
+  const double unit = scene.radianceUnit;
+  Image& image = result.image;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      Rgbf& pixel = image.at(x, y);
+      const auto place = [&] { return fmt::format("pixel ({}, {}) of the picture", x, y); };
+      if (!ad::isFinite(pixel))
+        throw std::runtime_error(place() + " is not finite: sums on the film are beyond float");
+      pixel = glm::max(Rgbf(glm::dvec3(pixel) * unit), Rgbf(0));
+      if (!ad::isFinite(pixel))
+        throw UserError(place() +
+                        " is too bright for an image file, which holds values up to 3.4e38: "
+                        "give all lights smaller values");
+    }
+  result.meanLuminance *= unit;
+  result.meanLuminanceError *= unit;
 }
 
 }  // namespace h2mc

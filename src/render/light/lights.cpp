@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,7 +8,9 @@
 
 #include "render/image/image_io.h"
 #include "render/light/light.h"
+#include "render/scene/change_note.h"
 #include "render/scene/properties.h"
+#include "render/scene/ranges.h"
 #include "render/scene/texel_check.h"
 
 namespace h2mc {
@@ -31,7 +35,8 @@ constexpr std::array kPointParameters{
 constexpr std::array kSpotParameters{
     kToWorld,
     Parameter{"intensity", ParameterType::kColor, "1", "flux per solid angle in the beam"},
-    Parameter{"cutoffAngle", ParameterType::kNumber, "20", "degrees from the axis to the dark"},
+    Parameter{"cutoffAngle", ParameterType::kNumber, "20",
+              "degrees from the axis to the dark, 0.001 to 180"},
     Parameter{"beamWidth", ParameterType::kNumber, "",
               "degrees from the axis to where the intensity starts to fall; 3/4 of cutoffAngle"},
     Parameter{"texture", ParameterType::kTexture, "",
@@ -66,6 +71,9 @@ Vec3f unit(const Properties& properties, std::string_view name, const Vec3f& v) 
   const double length = std::sqrt(glm::dot(d, d));
   if (!(length > 0) || !std::isfinite(length))
     properties.fail(name, "expected a direction: a vector that is not zero");
+  constexpr double kRounding = 1e-3;  // of directions written with few digits
+  if (properties.given(name) && std::abs(length - 1) > kRounding)
+    noteChange(properties, name, fmt::format("a direction of length {:g}", length), "of length 1");
   return Vec3f(d / length);
 }
 
@@ -87,9 +95,7 @@ Light createPoint(const Properties& properties) {
 
 Light createSpot(const Properties& properties) {
   const Mat4 toWorld = properties.transform("toWorld");
-  const float cutoff = properties.number("cutoffAngle");
-  if (!(cutoff > 0 && cutoff <= 180))
-    properties.fail("cutoffAngle", "expected an angle above 0 and up to 180 degrees");
+  const float cutoff = numberIn(properties, "cutoffAngle", 1e-3f, 180);
   const float beam =
       properties.given("beamWidth") ? properties.number("beamWidth") : cutoff * 0.75f;
   if (!(beam >= 0 && beam <= cutoff))
@@ -135,6 +141,9 @@ EnvironmentTransform environmentTransform(const Properties& properties) {
   glm::dmat3 m(properties.transform("toWorld"));
   const double scale = std::cbrt(std::abs(glm::determinant(m)));
   if (!(scale > 0)) properties.fail("toWorld", "expected a transform that can be inverted");
+  if (std::abs(scale - 1) > kNoise)
+    noteChange(properties, "toWorld", fmt::format("a scale of {:g}", scale),
+               "none: directions have no length");
   m = m * (1 / scale);
   EnvironmentTransform result;
   // Newton's iteration for the nearest orthogonal matrix [Higham 1986, "Computing the Polar
@@ -204,7 +213,7 @@ Light createEnvmap(const Properties& properties) {
   const EnvironmentTransform transform = environmentTransform(properties);
   Image image;
   try {
-    image = readImage(file, properties.number("gamma"));
+    image = readImage(file, readGamma(properties));
   } catch (const ImageError& error) {
     properties.fail("filename", error.what());
   }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "render/core/index.h"
+#include "render/scene/change_note.h"
 #include "render/scene/color_reader.h"
 #include "render/scene/transform_reader.h"
 #include "render/scene/value_text.h"
@@ -279,7 +280,13 @@ void ElementProperties::checkValue(const Parameter& parameter, const XmlElement&
         const std::string& value = child.require("value");
         if (parameter.type == ParameterType::kBoolean) parseBoolean(value);
         if (parameter.type == ParameterType::kInteger) checkedInteger(value);
-        if (parameter.type == ParameterType::kNumber || child.name == "float") parseNumber(value);
+        if (parameter.type == ParameterType::kNumber || child.name == "float") {
+          const bool zero = static_cast<float>(parseNumber(value)) == 0;
+          if (zero && value.find_first_of("123456789") < value.find_first_of("eE"))
+            context_.note(changeNote(child.place("value"),
+                                     "\"" + std::string(parameter.name) + "\" of " + description(),
+                                     value, "0, the nearest float"));
+        }
         if (parameter.type == ParameterType::kString) checkedChoice(parameter, value);
         break;
       }
@@ -429,6 +436,12 @@ SourcePlace ElementProperties::placeOf(std::string_view name) const {
 
 void ElementProperties::warn(std::string_view name, const std::string& message) const {
   context_.problems.warn(placeOf(name), description() + ": " + message);
+}
+
+void ElementProperties::changed(std::string_view name, const std::string& given,
+                                const std::string& used) const {
+  context_.note(
+      changeNote(placeOf(name), "\"" + std::string(name) + "\" of " + description(), given, used));
 }
 
 void ElementProperties::tolerate(std::string_view name, const std::string& message,

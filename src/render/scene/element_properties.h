@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "render/scene/change_note.h"
 #include "render/scene/properties.h"
 #include "render/scene/reader_context.h"
 #include "render/scene/suggestion.h"
@@ -23,7 +24,7 @@ struct ElementTable {
   bool texelsMayBeNegative = false;  // as Properties has it
 };
 
-class ElementProperties : public Properties {
+class ElementProperties : public Properties, public ChangeListener {
  public:
   // Checks every child: known, given once, of the right type, with a value that can be read.
   // Textures, files and nested BSDFs are not made before they are asked for. Adds all that is wrong to
@@ -50,6 +51,8 @@ class ElementProperties : public Properties {
   void refuse(std::string_view name, const std::string& message,
               const std::string& instead) const override;
   const Material& material(int index) const override;
+  void changed(std::string_view name, const std::string& given,
+               const std::string& used) const override;
   [[noreturn]] void fail(std::string_view name, const std::string& message) const override;
   [[noreturn]] void fail(std::string_view name, const std::string& message,
                          const std::string& hint) const;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "render/core/types.h"
+#include "render/scene/change_note.h"
 #include "render/scene/element_properties.h"
 #include "render/scene/part_readers.h"
 #include "render/scene/value_text.h"
@@ -62,10 +64,24 @@ const IntegratorPlugin* find(std::span<const IntegratorPlugin> integrators, std:
   return nullptr;
 }
 
+// The longest paths that there are, where the scene asks for longer ones.
+void noteLongest(ReaderContext& context, const std::string& value, const SourcePlace& place) {
+  try {
+    const long long wanted = parseInteger(value);
+    if (wanted == -1 || wanted > kMaxPathLength)
+      context.note(changeNote(place, "\"maxDepth\" of the integrator",
+                              wanted == -1 ? "-1, no limit" : value,
+                              std::to_string(kMaxPathLength)));
+  } catch (const ValueError&) {
+    // Said where the option is set.
+  }
+}
+
 // Sets an option for the chosen integrator, if it has it, and for any other.
 void setOption(ReaderContext& context, std::string_view name, const std::string& value,
                const SourcePlace& place) {
   context.scene.options[std::string(name)] = value;
+  if (name == "maxDepth") noteLongest(context, value, place);
   if (!context.scene.integrator.has(name)) return;
   try {
     context.scene.integrator.set(name, value);
@@ -118,6 +134,9 @@ void hideEmitters(ReaderContext& context, const XmlElement& child) {
   context.hidesEmitters = child.place("value");
   const auto given = context.scene.options.find("minDepth");
   if (given != context.scene.options.end() && parseInteger(given->second) >= 2) return;
+  context.note(changeNote(child.place("value"), "\"minDepth\" of the integrator",
+                          given != context.scene.options.end() ? given->second : "1",
+                          "2, by hideEmitters"));
   setOption(context, "minDepth", "2", child.place("value"));
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Materials of a scene file: what the table of BSDFs lists, and what is made of others.
+#include <fmt/format.h>
+
 #include <set>
 
 #include "render/bsdf/material.h"
 #include "render/core/index.h"
+#include "render/scene/change_note.h"
 #include "render/scene/element_properties.h"
 #include "render/scene/reader_context.h"
 #include "render/scene/value_text.h"
@@ -198,7 +201,10 @@ Material NestedReader::mixture() const {
                                     std::to_string(count) + " bsdfs");
   double sum = 0;
   for (const double weight : weights) {
-    if (!(weight >= 0)) properties_.fail("weights", "a weight must not be negative");
+    constexpr double kMost = 1000;
+    if (!(weight >= 0 && weight <= kMost))
+      properties_.fail("weights", fmt::format("a weight is {:g}, expected numbers from 0 to {:g}",
+                                              weight, kMost));
     sum += weight;
   }
   if (!(sum > 0)) properties_.fail("weights", "one weight must be positive");
@@ -216,6 +222,9 @@ Material NestedReader::mixture() const {
   Blend whole = *material.blend;
   if (sum <= 1 || !properties_.boolean("ensureEnergyConservation"))
     whole.scale = static_cast<float>(sum);
+  else
+    noteChange(properties_, "weights", fmt::format("a sum of {:g}", sum),
+               "a sum of 1, to conserve energy");
   material.blend = std::make_shared<const Blend>(std::move(whole));
   return checked(std::move(material));
 }

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "render/core/index.h"
+#include "render/scene/change_note.h"
 #include "render/scene/element_properties.h"
 #include "render/scene/normalise.h"
 #include "render/scene/part_readers.h"
@@ -82,12 +83,20 @@ void keepUsedMaterials(Scene& scene) {
 // What a user who looks at coordinates or targets should know.
 void noteUnits(ReaderContext& context) {
   const Scene& scene = context.scene;
-  if (scene.origin != glm::dvec3(0))
-    context.note(fmt::format("far from the origin: coordinates are relative to ({}, {}, {})",
-                             scene.origin.x, scene.origin.y, scene.origin.z));
-  if (scene.radianceUnit != 1)
+  const SourcePlace place = context.document.root.place();
+  if (scene.origin != glm::dvec3(0)) {
+    const std::string origin =
+        fmt::format("({}, {}, {})", scene.origin.x, scene.origin.y, scene.origin.z);
+    context.note("far from the origin: coordinates are relative to " + origin);
+    context.note(changeNote(place, "coordinates", "as they are", "relative to " + origin));
+  }
+  if (scene.radianceUnit != 1) {
     context.note(
         fmt::format("computed in units of {} of the scene's radiance", scene.radianceUnit));
+    context.note(changeNote(
+        place, "what lights emit", "as it is",
+        fmt::format("in units of {:g}, which the picture is multiplied with", scene.radianceUnit)));
+  }
 }
 
 // Goes through what stands on top of a scene; what is wrong with one part does not keep it from reading

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
+#include "render/scene/change_note.h"
 #include "render/scene/element_properties.h"
 #include "render/scene/part_readers.h"
+#include "render/scene/ranges.h"
 #include "render/scene/value_text.h"
 
 namespace h2mc {
@@ -22,13 +25,16 @@ struct Entry {
   std::span<const Parameter> parameters;
 };
 
+constexpr float kNarrowest = 1e-4f, kWidest = 179.9f;  // field of view, degrees
+constexpr float kFarthest = 1e30f;                     // clipping plane
+
 constexpr Parameter kPerspective[] = {
     {"toWorld", kTransform, "", "from camera to world space"},
-    {"fov", kNumber, "0", "field of view, degrees"},
+    {"fov", kNumber, "0", "field of view, 1e-4 to 179.9 degrees"},
     {"fovAxis", kString, "x", "the axis fov is measured along", "x|y|diagonal|smaller|larger"},
     {"focalLength", kString, "50mm", "instead of fov: focal length for 35 mm film"},
-    {"nearClip", kNumber, "0.01", "nearest distance"},
-    {"farClip", kNumber, "10000", "farthest distance"},
+    {"nearClip", kNumber, "0.01", "nearest distance, above 0"},
+    {"farClip", kNumber, "10000", "farthest distance, up to 1e30"},
     {"shutterOpen", kNumber, "0", "time"},
     {"shutterClose", kNumber, "0", "time"},
     {"principalPointOffsetX", kNumber, "0", "must be 0"},
@@ -73,40 +79,27 @@ constexpr Entry kFilters[] = {{"box", kBox},
 constexpr Parameter kSampler[] = {
     {"sampleCount", kInteger, "0", "samples a pixel where the command line gives no budget"}};
 
-float positive(const Properties& p, std::string_view name) {
-  const float value = p.number(name);
-  if (!(value > 0)) p.fail(name, "\"" + std::string(name) + "\" must be positive");
-  return value;
-}
-
-float inRange(const Properties& p, std::string_view name, float low, float high) {
-  const float value = p.number(name);
-  if (!(value >= low && value <= high))
-    p.fail(name, fmt::format("\"{}\" must be from {} to {}", name, low, high));
-  return value;
-}
-
 Filter readFilter(ReaderContext& context, const XmlElement& element) {
   const Entry& entry = findPlugin(kFilters, element, "reconstruction filter");
   const ElementProperties p(context, element, {"rfilter", entry.parameters, 0, {}, false});
   Filter filter;
   if (entry.name == "box") {
     filter.kind = Filter::Kind::kBox;
-    filter.radius = inRange(p, "radius", Filter::kNarrowest, Filter::kWidest);
+    filter.radius = numberIn(p, "radius", Filter::kNarrowest, Filter::kWidest);
   } else if (entry.name == "tent") {
     filter.kind = Filter::Kind::kTent;
-    filter.radius = inRange(p, "radius", Filter::kNarrowest, Filter::kWidest);
+    filter.radius = numberIn(p, "radius", Filter::kNarrowest, Filter::kWidest);
   } else if (entry.name == "gaussian") {
     filter.kind = Filter::Kind::kGaussian;
-    filter.stddev = inRange(p, "stddev", Filter::kNarrowest / Filter::kDeviations,
-                            Filter::kWidest / Filter::kDeviations);
+    filter.stddev = numberIn(p, "stddev", Filter::kNarrowest / Filter::kDeviations,
+                             Filter::kWidest / Filter::kDeviations);
     filter.radius = Filter::kDeviations * filter.stddev;
   } else {
     filter.kind = Filter::Kind::kMitchell;
     filter.radius = 2;
     const bool spline = entry.name == "catmullrom";
-    filter.b = spline ? 0.f : inRange(p, "B", 0, 1);
-    filter.c = spline ? 0.5f : inRange(p, "C", 0, 1);
+    filter.b = spline ? 0.f : numberIn(p, "B", 0, 1);
+    filter.c = spline ? 0.5f : numberIn(p, "C", 0, 1);
   }
   return filter;
 }
@@ -139,9 +132,14 @@ void resize(FilmSettings& film, const ReadOptions& options, const ElementPropert
   height = std::max(1.0, std::round(height));
   constexpr double kLargest = 65536, kMostPixels = 1 << 28;
   if (!(width <= kLargest && height <= kLargest && width * height <= kMostPixels)) {
-    const std::string message = "the image is too large";
-    if (p) p->fail(film.width >= film.height ? "width" : "height", message);
-    throw SceneError("error: " + message);
+    const std::string message =
+        fmt::format("the image would have {:.0f} x {:.0f} pixels", width, height);
+    const std::string expected = fmt::format(
+        "expected at most {:.0f} in width and height, and {:.0f} in all", kLargest, kMostPixels);
+    const std::string_view place = film.width >= film.height ? "width" : "height";
+    const bool asked = options.width > 0 || options.height > 0 || options.scale > 0;
+    if (p && p->given(place) && !asked) p->fail(place, message, expected);
+    throw SceneError("error: " + message + "\n" + expected);
   }
   film.width = static_cast<int>(width);
   film.height = static_cast<int>(height);
@@ -183,10 +181,9 @@ FilmSettings readFilm(ReaderContext& context, const XmlElement& element, const R
   });
   const ElementProperties p(context, copy, {"film", entry.parameters, 0, {"rfilter"}, false});
   FilmSettings film;
-  film.width = p.integer("width");
-  film.height = p.integer("height");
-  for (std::string_view name : {"width", "height"})
-    if (p.integer(name) < 1) p.fail(name, "\"" + std::string(name) + "\" must be positive");
+  constexpr int kMost = std::numeric_limits<int>::max();
+  film.width = integerIn(p, "width", 1, kMost);
+  film.height = integerIn(p, "height", 1, kMost);
   window = readWindow(p, film);
   resize(film, options, &p);
   film.filter = defaultFilter();
@@ -205,9 +202,7 @@ int readSampler(ReaderContext& context, const XmlElement& element) {
   // The kind does not matter: every sampler's parameters are accepted.
   const ElementProperties p(context, element, {"sampler", kSampler, 0, {}, true});
   context.note("accepted and not used: the kind of sampler, \"" + p.type() + "\"");
-  const int count = p.integer("sampleCount");
-  if (count < 0) p.fail("sampleCount", "\"sampleCount\" must not be negative");
-  return count;
+  return integerIn(p, "sampleCount", 0, std::numeric_limits<int>::max());
 }
 
 // Field of view of a 35 mm film's diagonal, degrees.
@@ -220,8 +215,12 @@ float fovOfFocalLength(const ElementProperties& p) {
   } catch (const ValueError& e) {
     p.fail("focalLength", e.what(), "expected a length like 50mm");
   }
-  if (!(length > 0)) p.fail("focalLength", "a focal length is positive");
-  return static_cast<float>(glm::degrees(2 * std::atan(std::hypot(36.0, 24.0) / (2 * length))));
+  const double fov = glm::degrees(2 * std::atan(std::hypot(36.0, 24.0) / (2 * length)));
+  if (!(length > 0 && fov >= kNarrowest && fov <= kWidest))
+    p.fail(
+        "focalLength",
+        fmt::format("\"focalLength\" is {:g} mm, expected a length from 0.05 mm to 20 km", length));
+  return static_cast<float>(fov);
 }
 
 }  // namespace
@@ -259,8 +258,7 @@ void readSensor(ReaderContext& context, const XmlElement& element, const ReadOpt
   float fov = 0;
   auto axis = Camera::FovAxis::kDiagonal;
   if (p.given("fov")) {
-    fov = p.number("fov");
-    if (!(fov > 0 && fov < 180)) p.fail("fov", "fov must lie between 0 and 180 degrees");
+    fov = numberIn(p, "fov", kNarrowest, kWidest);
     const std::string name = p.string("fovAxis");
     axis = name == "x"          ? Camera::FovAxis::kX
            : name == "y"        ? Camera::FovAxis::kY
@@ -281,14 +279,20 @@ void readSensor(ReaderContext& context, const XmlElement& element, const ReadOpt
   scene.camera.shutterOpen = shutterOpen;  // what motion() goes by
   scene.camera.shutterClose = shutterClose;
   const Motion motion = p.motion("toWorld");
+  for (int i = 0; i < 3; ++i) {
+    constexpr double kRounding = 1e-3;  // of matrices written with few digits
+    const double scale = glm::length(glm::dvec3(motion.at(0)[i]));
+    if (std::abs(scale - 1) > kRounding)
+      noteChange(p, "toWorld", fmt::format("a scale of {:g}", scale), "none: a camera has no size");
+  }
   scene.camera = Camera(Mat4(motion.at(0)), fov, axis, aspect);
   if (windowX < 1 || windowY < 1)
     scene.camera.crop(window.left, window.top, window.right, window.bottom);
   scene.camera.follow(motion);
   scene.camera.shutterOpen = shutterOpen;
   scene.camera.shutterClose = shutterClose;
-  scene.camera.nearClip = positive(p, "nearClip");
-  scene.camera.farClip = positive(p, "farClip");
+  scene.camera.nearClip = numberAbove0(p, "nearClip", kFarthest);
+  scene.camera.farClip = numberAbove0(p, "farClip", kFarthest);
   if (!(scene.camera.nearClip < scene.camera.farClip))
     p.fail("farClip", "farClip must be larger than nearClip");
 }

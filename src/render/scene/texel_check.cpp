@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "ad/traits.h"
+#include "render/scene/change_note.h"
 
 namespace h2mc {
 namespace {
@@ -40,6 +41,10 @@ std::optional<Image> mendedTexels(const Properties& p, const Image& image) {
   if (negative.count > 0)
     p.tolerate("filename", negative.message(p, "negative"),
                "in files of version 0.x, and with --permissive, they are 0");
+  noteChange(
+      p, "filename",
+      fmt::format("{} values that are negative or not finite", notFinite.count + negative.count),
+      "0");
   Image mended = image;
   for (Rgbf& c : mended.pixels)
     for (float* v : {&c.x, &c.y, &c.z})

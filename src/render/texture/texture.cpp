@@ -2,7 +2,9 @@
 #include "render/texture/texture.h"
 
 #include "render/image/image_io.h"
+#include "render/scene/change_note.h"
 #include "render/scene/properties.h"
+#include "render/scene/ranges.h"
 #include "render/scene/texel_check.h"
 
 namespace h2mc {
@@ -85,7 +87,7 @@ TexturePtr createBitmap(const Properties& p) {
   BitmapTexture t;
   const std::string file = p.file("filename");
   try {
-    t.image = BitmapTexture::load(file, p.boolean("raw") ? 1 : p.number("gamma"),
+    t.image = BitmapTexture::load(file, p.boolean("raw") ? 1 : readGamma(p),
                                   p.given("channel") ? p.string("channel") : "");
   } catch (const ImageError& e) {
     p.fail("filename", e.what());
@@ -96,7 +98,10 @@ TexturePtr createBitmap(const Properties& p) {
   t.mapping = readMapping(p);
   t.wrapU = readWrapMode(p, "wrapModeU");
   t.wrapV = readWrapMode(p, "wrapModeV");
-  t.nearest = p.string("filterType") == "nearest";
+  const std::string filter = p.string("filterType");
+  t.nearest = filter == "nearest";
+  if (p.given("filterType") && filter != "nearest" && filter != "bilinear")
+    noteChange(p, "filterType", filter, "bilinear at full resolution");
   return std::make_shared<const Texture>(std::move(t));
 }
 

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#include "render/scene/change_note.h"
+
+namespace h2mc {
+
+std::string changeNote(const SourcePlace& place, const std::string& what, const std::string& given,
+                       const std::string& used) {
+  return std::string(kChangeNote) + describe(place) + ": " + what + ": " + given +
+         " in the file, used: " + used;
+}
+
+void noteChange(const Properties& p, std::string_view name, const std::string& given,
+                const std::string& used) {
+  if (const auto* listener = dynamic_cast<const ChangeListener*>(&p))
+    listener->changed(name, given, used);
+}
+
+}  // namespace h2mc
