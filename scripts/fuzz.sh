@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# scripts/fuzz.sh [SECONDS [TARGET...]]: builds the programs of tests/fuzz with libFuzzer and sanitizers and gives each (or
-# those named: xml, obj, ply, serialized, image, path_text) so many seconds (default 60), one a core at a time. What leads
-# to new code is kept in build/fuzz/corpus and begun from the next time. Exit code 1 on a finding; its input is kept in
-# build/fuzz/findings, and is tried again by: build/fuzz/tests/fuzz/h2mc_fuzz_TARGET FILE
+# scripts/fuzz.sh [SECONDS [TARGET...]]: builds the programs of tests/fuzz with libFuzzer and sanitizers and gives each
+# (or those named: xml, obj, ply, serialized, image, path_text) so many seconds (default 60), one a core at a time. What
+# leads to new code is kept in build/fuzz/corpus and begun from the next time. Exit code 1 on a finding; its input is
+# kept in build/fuzz/findings, and is tried again by: build/fuzz/tests/fuzz/h2mc_fuzz_TARGET FILE
 set -uo pipefail
 root=$(cd -P -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." >/dev/null && pwd)
 source "$root/scripts/lib.sh"
@@ -11,9 +11,10 @@ source "$root/scripts/lib.sh"
 case ${1-} in -h | --help) sed -n '2,/^set/{/^set/d;/SPDX/d;s/^# \{0,1\}//p}' "${BASH_SOURCE[0]}"; exit 0 ;; esac
 seconds=${1-60}
 [[ $seconds =~ ^[1-9][0-9]*$ ]] || { say "expected a number of seconds, got \"$seconds\""; exit 2; }
-shift
+(($#)) && shift
 all=(xml obj ply serialized image path_text)
-targets=("${@:-${all[@]}}")
+targets=("$@")
+(($#)) || targets=("${all[@]}")
 for target in "${targets[@]}"; do
   [[ " ${all[*]} " == *" $target "* ]] || { say "no target \"$target\"; there are: ${all[*]}"; exit 2; }
 done
@@ -46,8 +47,8 @@ fuzz() {
   fi
   printf '%-10s FOUND: %s\n' "$target" "$(grep -m 1 -E '^FINDING|ERROR: |runtime error' "$log" | cut -c1-200)"
   (($(find "$folder/findings" -name "$target-*" | wc -l) > before)) &&
-    printf '%10s input:  %s\n' '' "$(find "$folder/findings" -name "$target-*" -printf '%T@ %p\n' | sort -n | tail -n 1 |
-      cut -d' ' -f2-)"
+    printf '%10s input:  %s\n' '' \
+      "$(find "$folder/findings" -name "$target-*" -printf '%T@ %p\n' | sort -n | tail -n 1 | cut -d' ' -f2-)"
   printf '%10s log:    %s\n' '' "$log"
   return 1
 }

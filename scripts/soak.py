@@ -166,7 +166,8 @@ class Soak:
             if row["growth"] is not None:
                 total["growth"] = max(total["growth"] if total["growth"] is not None else row["growth"], row["growth"])
             if row["wrong"]:
-                total["wrong"] += ("; " if total["wrong"] else "") + (variation + ": " if variation else "") + row["wrong"]
+                said = (variation + ": " if variation else "") + row["wrong"]
+                total["wrong"] += ("; " if total["wrong"] else "") + said
         head = ("| scene | mutations | time | not finite | pixels not finite or below 0 | peak memory | growth | |\n"
                 "|---|---|---|---|---|---|---|---|")
         return "\n".join([head, *map(self.line, rows)])
@@ -188,8 +189,8 @@ def main():
     total = sum(row["mutations"] for row in soak.rows)
     wrong = [row for row in soak.rows if row["wrong"]]
     judged = [row for row in soak.rows if row["growth"] is not None]
-    print(f"\n{total / 1e6:.5g} million mutations in {len(soak.rows)} renders, {len(wrong)} with something wrong; memory "
-          f"was judged in {len(judged)}, the others were too short")
+    print(f"\n{total / 1e6:.5g} million mutations in {len(soak.rows)} renders, {len(wrong)} with something wrong; "
+          f"memory was judged in {len(judged)}, the others were too short")
     return 1 if wrong else 0
 
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# scripts/soak.sh [MUTATIONS] [--scene NAME]... [--json FILE]: the soak test. Makes so many mutations (default 1e9), half
-# of them on the scenes in scenes/ and half on their stress variations, and prints a table of what was met: contributions
-# and pixels that are not finite, pixels below 0, memory that grows. Exit code 1 where there was any. 1e9 takes about
-# two hours on two cores.
+# scripts/soak.sh [MUTATIONS] [--scene NAME]... [--json FILE]: the soak test. Makes so many mutations (default 1e9),
+# half of them on the scenes in scenes/ and half on their stress variations, and prints a table of what was met:
+# contributions and pixels that are not finite, pixels below 0, memory that grows. Exit code 1 where there was any. 1e9
+# takes about two hours on two cores.
 set -euo pipefail
 root=$(cd -P -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." >/dev/null && pwd)
 source "$root/scripts/lib.sh"

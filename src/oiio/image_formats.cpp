@@ -25,8 +25,8 @@ float gammaOf(const OIIO::ImageSpec& spec) {
   return -1;
 }
 
-// Formats of pictures that are whole in one file. OpenImageIO has more, among them FFmpeg's: what it takes for a movie may
-// be a list of other files, or of addresses, that it opens.
+// Formats of pictures that are whole in one file. OpenImageIO has more, among them FFmpeg's: what it takes for a movie
+// may be a list of other files, or of addresses, that it opens.
 constexpr const char* kFormats[] = {
     "openexr",  "hdr", "png", "jpeg", "tiff", "bmp", "targa",     "pnm",    "webp", "dds", "gif",
     "jpeg2000", "psd", "sgi", "iff",  "dpx",  "rla", "softimage", "cineon", "ico",  "fits"};

@@ -9,8 +9,8 @@ namespace h2mc::fuzz {
 // Renders the scene by path, h2mc and the integrator that it asks for, with next to no samples. Throws Finding where a
 // pixel is not finite or negative, or where the brightness differs by more than chance can explain.
 //
-// When is that? Few paths may carry most of the light, and an integrator that has met none of them is sure of itself and
-// wrong: no number of standard errors helps, since the error itself is wrong. What helps is which of two was wrong.
+// When is that? Few paths may carry most of the light, and an integrator that has met none of them is sure of itself
+// and wrong: no number of standard errors helps, since the error itself is wrong. What helps is which of two was wrong.
 // bdpt has path's techniques among its own, and weighs each by how often it samples a path: nothing that path finds
 // often is rare in bdpt. And h2mc's brightness is that of bdpt's sampler. So
 //

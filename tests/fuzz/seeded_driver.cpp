@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// PROGRAM CORPUS [MUTATIONS [SEED]]: a target without libFuzzer, so that any build can run it, and twice the same. Reads
-// every file of the folder (or the one file), then so many inputs that are made from them. On a finding the input is
-// kept as finding-PROGRAM in the current folder.
+// PROGRAM CORPUS [MUTATIONS [SEED]]: a target without libFuzzer, so that any build can run it, and twice the same.
+// Reads every file of the folder (or the one file), then so many inputs that are made from them. On a finding the input
+// is kept as finding-PROGRAM in the current folder.
 #include <sys/resource.h>
 #include <sys/time.h>
 #include <unistd.h>

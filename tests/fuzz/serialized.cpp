@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Mitsuba's serialized meshes. What is interesting about them is compressed: the mutator changes what comes out of zlib,
-// and compresses that again.
+// Mitsuba's serialized meshes. What is interesting about them is compressed: the mutator changes what comes out of
+// zlib, and compresses that again.
 #include <zlib.h>
 
 #include <algorithm>
