@@ -19,11 +19,19 @@ double bytesAPath(int maxLength) {
          2.0 * static_cast<double>(at(maxLength) + 2) * static_cast<double>(sizeof(TracedVertex));
 }
 
-// A chain has a path and a proposal, and a third path is where it starts or goes on to; what kernels keep of its states,
-// and what it splats in a round, measured with all methods.
-double bytesAChain(int maxLength) {
-  constexpr double kKept = 6000;
-  return 3 * bytesAPath(maxLength) + kKept;
+// A chain has a path and a proposal, and a third path is where it starts or goes on to. Then what it splats in a round
+// and what kernels keep of its states, as measured: most of it is Gaussians and paths as such, of which only the pages
+// that are used are there.
+double bytesAChain(const OptionSet& options, int maxLength) {
+  constexpr double kSplats = 1500, kPathSpace = 9000, kTechniques = 5500;
+  const double ofGaussians = 10750 + 250.0 * maxLength;
+  double kept = kSplats;
+  if (options.has("trajectoryLength") || options.has("stepSize")) kept += ofGaussians;
+  if (options.has("roughnessThreshold"))
+    kept += kPathSpace;
+  else if (options.has("techniqueProbability"))
+    kept += kTechniques;
+  return 3 * bytesAPath(maxLength) + kept;
 }
 
 }  // namespace
@@ -37,7 +45,7 @@ void requireMetropolisMemory(const Scene& scene, const OptionSet& options,
       (direct ? kImage : 0) + (marks ? kInEpoch + (direct ? 24 : kImage) : kBetweenEpochs);
   const double chains = options.integer("chains"), samples = static_cast<double>(bootstrapSamples);
   requireMemory({filmMemory(scene.film, pixel),
-                 {chains * bytesAChain(maxLength),
+                 {chains * bytesAChain(options, maxLength),
                   fmt::format("{:.0f} chains of paths of up to {} edges", chains, maxLength),
                   "expected fewer by the option \"chains\""},
                  {samples * sizeof(double), fmt::format("{:.0f} bootstrap samples", samples),
