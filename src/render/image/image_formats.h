@@ -29,7 +29,7 @@ using HeaderCheck = std::function<ChannelRange(const FilePicture& header)>;
 
 class ImageFormats {
  public:
-  // Reads any format that OpenImageIO knows. Throws what `check` throws, or std::runtime_error: why not, without the
+  // Reads one of the formats of kFormats. Throws what `check` throws, or std::runtime_error: why not, without the
   // file's name.
   virtual FilePicture read(const std::string& path, const HeaderCheck& check) const = 0;
   // The bytes of a file with three channels: Radiance's HDR, PNG. In memory, since the library does not tell when a

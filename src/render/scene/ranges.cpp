@@ -45,7 +45,8 @@ float readGamma(const Properties& p) {
   const float gamma = p.number("gamma");
   if (gamma != 0 && gamma != -1 && !(gamma >= kLow && gamma <= kHigh))
     failWith(p, "gamma", fmt::format("{:g}", gamma),
-             fmt::format("-1 for sRGB, 0 for what the file says, or an exponent from {:g} to {:g}", kLow, kHigh));
+             fmt::format("-1 for sRGB, 0 for what the file says, or an exponent from {:g} to {:g}",
+                         kLow, kHigh));
   return gamma;
 }
 

@@ -28,7 +28,7 @@ struct Scene {
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
 
-  std::string file;  // the scene file's path as given
+  std::string file;                // the scene file's path as given
   std::vector<std::string> files;  // all that were read, this one among them
   Camera camera;
   FilmSettings film;

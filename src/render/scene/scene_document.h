@@ -16,11 +16,11 @@ struct SceneDocument {
   std::map<std::string, const XmlElement*, std::less<>> ids;  // into root
   std::map<std::string, std::string, std::less<>> aliases;    // another id -> id
   std::vector<std::string> searchFolders;                     // from <path>, "" or ending in /
-  std::string folder;                   // of the scene file, "" or ending in /
-  std::string confinedTo;               // canonical; what the scene refers to lies below. "": anywhere
-  bool incomplete = false;              // an <include> failed, so ids may be missing
-  std::vector<SceneError> problems;     // what was wrong on the way: for the reader to say
-  std::vector<StrayText> strays;        // text that belongs to nothing
+  std::string folder;                // of the scene file, "" or ending in /
+  std::string confinedTo;            // canonical; what the scene refers to lies below. "": anywhere
+  bool incomplete = false;           // an <include> failed, so ids may be missing
+  std::vector<SceneError> problems;  // what was wrong on the way: for the reader to say
+  std::vector<StrayText> strays;     // text that belongs to nothing
   mutable std::set<std::string> files;  // that were read, and that resolveFile() has found
   std::vector<SourcePlace> spoilt;      // attributes whose value is wrong for one of these
 
