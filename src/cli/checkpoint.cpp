@@ -5,11 +5,13 @@
 #include <zlib.h>
 
 #include <filesystem>
+#include <limits>
 #include <vector>
 
 #include "cli/commands.h"
 #include "h2mc_version.h"
 #include "render/core/index.h"
+#include "render/core/input_file.h"
 #include "render/image/atomic_file.h"
 #include "render/scene/scene.h"
 
@@ -39,11 +41,10 @@ std::uint32_t checksumOf(std::istream& stream, std::uint64_t size) {
 json contentsOf(const std::vector<std::string>& files) {
   json contents = json::object();
   for (const std::string& file : files) {
+    const std::uint64_t size = InputFile(file, kLargestData).size();
     std::ifstream stream(file, std::ios::binary);
-    std::error_code error;
-    const std::uint64_t size = fs::file_size(file, error);
-    const std::uint32_t sum = error ? 0 : checksumOf(stream, size);
-    if (error || !stream) throw InputError("cannot read \"" + file + "\"");
+    const std::uint32_t sum = checksumOf(stream, size);
+    if (!stream) throw InputError("cannot read \"" + file + "\"");
     contents[file] = fmt::format("{:08x}", sum);
   }
   return contents;
@@ -103,7 +104,12 @@ Archive& Checkpoint::open() {
     return InputError("the checkpoint \"" + file_ + "\" " + why);
   };
   std::error_code error;
-  if (!fs::is_regular_file(file_, error)) throw fail("is not a file");
+  // What is no file is not waited for.
+  try {
+    const InputFile file(file_, std::numeric_limits<std::uint64_t>::max());
+  } catch (const InputFileError& e) {
+    throw fail("cannot be read: " + e.why());
+  }
   stream_.open(file_, std::ios::binary);
   const std::uint64_t size = fs::file_size(file_, error);
   std::string magic(sizeof(std::uint64_t) + kMagic.size(), '\0');

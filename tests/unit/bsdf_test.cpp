@@ -331,7 +331,7 @@ TEST(Bsdf, RoughTransmittanceIsReciprocal) {
       for (const double eta : {0.7, 1.1, 1.5, 2.4}) {
         const Microfacet f = facets(d, alpha);
         EXPECT_NEAR(1 - RoughTransmittance(f, eta).internalReflectance(), throughFromInside(f, eta),
-                    5e-4)
+                    1e-3)  // as well as the quadrature from inside resolves that border
             << int(d) << " " << alpha << " " << eta;
       }
 }

@@ -173,8 +173,9 @@ TEST(MeshPly, Mistakes) {
   EXPECT_TRUE(contains(plyError(plyHeader("ascii", kXyz) + square + "3 0 1 -1\n"), "bad vertex"));
   EXPECT_TRUE(contains(plyError(plyHeader("ascii", kXyz) + square + "2 0 1\n"), "fewer than 3"));
   EXPECT_TRUE(contains(plyError(plyHeader("ascii", kXyz) + square + "200 0 1\n"), "ends early"));
-  EXPECT_TRUE(contains(plyError(plyHeader("ascii", kXyz) + square), "ends early"));
-  EXPECT_TRUE(contains(plyError(plyHeader("ascii", kXyz) + "0 0 0\n1 0 nan\n"), "not a finite"));
+  EXPECT_TRUE(contains(plyError(plyHeader("ascii", kXyz) + square), "too short"));
+  EXPECT_TRUE(
+      contains(plyError(plyHeader("ascii", kXyz) + "0 0 0\n1 0 nan\n" + square), "not a finite"));
   EXPECT_TRUE(contains(plyError(plyHeader("ascii", kXyz, "int", 2000000000)), "too short"));
   std::string nan = plyHeader("binary_little_endian", kXyz, "int", 1);
   for (int i = 0; i < 3; ++i) append<std::uint32_t>(nan, 0x7fc00000u, false);

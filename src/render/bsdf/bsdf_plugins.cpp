@@ -194,6 +194,7 @@ void readFacets(const Properties& p, FacetSurface& b) {
   const Rgbf mean = average(*alpha);
   // One number is to stay the same number.
   const float value = mean.x == mean.y && mean.x == mean.z ? mean.x : scalarOf(mean);
+  if (value < 0) p.fail("alpha", "a roughness must not be negative");
   b.facets.alpha = atLeastSmallest(p, "alpha", value);
   if (!std::holds_alternative<ConstantTexture>(*alpha)) b.roughness = alpha;
 }

@@ -67,8 +67,12 @@ struct RoughDiffuse : CosineLobe {
                           (S(0.125) * s2 / (s2 + S(0.09)));
     const T twice = (S(1) - cosPhi * turned * turned) * (S(0.17) * s2 / (s2 + S(0.13)));
     const Rgb<T> rho = modulate<T>(*reflectance, uv, T(S(scale)));
-    return {rho.x * (single + rho.x * twice), rho.y * (single + rho.y * twice),
-            rho.z * (single + rho.z * twice)};
+    // The fit is below zero for very rough surfaces, where light grazes and comes back on the other side.
+    const auto reflected = [&](const T& r) {
+      const T sum = single + r * twice;
+      return value(sum) > 0 ? T(r * sum) : T(S(0));
+    };
+    return {reflected(rho.x), reflected(rho.y), reflected(rho.z)};
   }
 };
 

@@ -4,6 +4,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <mutex>
 #include <tuple>
@@ -131,6 +133,19 @@ RoughTransmittance::RoughTransmittance(const Microfacet& facets, double eta) {
     right[i] = 3 * (f[i + 1] - f[i - 1]) - (i == n - 1 ? m[n] : 0) - below * right[i - 1];
   }
   for (int i = n - 1; i >= 1; --i) m[i] = (right[i] - (i == n - 1 ? 0 : m[i + 1])) / diagonal[i];
+  // Where total reflection begins the function has a corner, around which the spline would swing below zero: slopes with
+  // which each piece is monotonic [Fritsch and Carlson 1980].
+  if (eta < 1) {
+    for (int i = 0; i <= n; ++i) {
+      const double before = i > 0 ? f[at(i)] - f[at(i) - 1] : f[1] - f[0];
+      const double after = i < n ? f[at(i) + 1] - f[at(i)] : before;
+      if (before * after > 0)
+        m[at(i)] = std::copysign(
+            std::min(std::abs(m[at(i)]), 3 * std::min(std::abs(before), std::abs(after))), after);
+      else
+        m[at(i)] = 0;
+    }
+  }
   pieces_.resize(n);
   for (int i = 0; i < n; ++i) {
     const double rise = f[i + 1] - f[i];
