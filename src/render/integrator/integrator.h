@@ -85,8 +85,8 @@ struct RenderResult {
   nlohmann::json statistics;
 };
 
-// Image and mean luminance from the scene's own units to those of its file. Pixels that a filter with negative lobes
-// has left below zero beside something bright become zero: no picture has negative light.
+// Image and mean luminance in the file's units. What a filter with negative lobes has left below zero becomes zero.
+// Throws UserError where a pixel is beyond float in these units, std::runtime_error where one is not finite before.
 void finish(const Scene& scene, RenderResult& result);
 
 class Integrator {
