@@ -8,6 +8,6 @@ if(TARGET h2mc)
 endif()
 
 set(share "${CMAKE_INSTALL_DATADIR}/h2mc")
-install(FILES README.md CONTRIBUTING.md CHANGELOG.md CITATION.cff LICENSE DESTINATION "${share}")
+install(FILES README.md CONTRIBUTING.md CHANGELOG.md SECURITY.md CITATION.cff LICENSE DESTINATION "${share}")
 install(DIRECTORY docs DESTINATION "${share}")
 install(DIRECTORY scenes DESTINATION "${share}" PATTERN "__pycache__" EXCLUDE)
