@@ -37,7 +37,8 @@ CHANGES = {
     "camera": ('<transform name="toWorld"><lookat origin="0, 1, 5"',
                '<transform name="toWorld"><scale value="2"/><lookat origin="0, 1, 5"',
                '"toWorld" of sensor "perspective": a scale of 2 in the file, used: none: a camera has no size'),
-    "tiny": ('<float name="fov" value="40"/>', '<float name="fov" value="40"/><float name="shutterOpen" value="1e-60"/>',
+    "tiny": ('<float name="fov" value="40"/>',
+             '<float name="fov" value="40"/><float name="shutterOpen" value="1e-60"/>',
              '"shutterOpen" of sensor "perspective": 1e-60 in the file, used: 0, the nearest float'),
 }
 

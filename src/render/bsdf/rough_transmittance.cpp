@@ -133,8 +133,8 @@ RoughTransmittance::RoughTransmittance(const Microfacet& facets, double eta) {
     right[i] = 3 * (f[i + 1] - f[i - 1]) - (i == n - 1 ? m[n] : 0) - below * right[i - 1];
   }
   for (int i = n - 1; i >= 1; --i) m[i] = (right[i] - (i == n - 1 ? 0 : m[i + 1])) / diagonal[i];
-  // Where total reflection begins the function has a corner, around which the spline would swing below zero: slopes with
-  // which each piece is monotonic [Fritsch and Carlson 1980].
+  // Where total reflection begins the function has a corner, around which the spline would swing below zero: slopes
+  // with which each piece is monotonic [Fritsch and Carlson 1980].
   if (eta < 1) {
     for (int i = 0; i <= n; ++i) {
       const double before = i > 0 ? f[at(i)] - f[at(i) - 1] : f[1] - f[0];

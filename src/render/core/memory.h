@@ -26,8 +26,8 @@ MemoryLeft memoryLeft();
 // What the process may have in all, in bytes; 0: what there is. Call it before other threads start.
 void setMostMemory(double bytes);
 
-// Throws MemoryError where `bytes` are more than memoryLeft(). `what`: the message's subject, "a film of ..."; `remedy`:
-// what to change, "expected a smaller --width".
+// Throws MemoryError where `bytes` are more than memoryLeft(). `what`: the message's subject, "a film of ...";
+// `remedy`: what to change, "expected a smaller --width".
 void requireMemory(double bytes, const std::string& what, const std::string& remedy);
 
 // What the control groups that the process is in, and those above them, leave of their limits, in bytes; infinite where

@@ -17,10 +17,10 @@ class ImageError : public UserError {
   using UserError::UserError;
 };
 
-// Reads the formats of pictures that OpenImageIO knows (kFormats in src/oiio/image_formats.cpp), as linear RGB (grey is spread over the channels, alpha is
-// dropped). gamma: 0 = the file's own (sRGB for 8-bit formats, linear for float ones), -1 = sRGB,
-// 1 = linear, else value^gamma. channel: one of the file's alone ("r", "g", "b", "a" or "y", or a name
-// that the file gives), spread over all three; alpha is always linear. Throws ImageError.
+// Reads a picture (formats: kFormats in src/oiio/image_formats.cpp) as linear RGB: grey is spread over the channels,
+// alpha is dropped. gamma: 0 = the file's own (sRGB for 8-bit formats, linear for float ones), -1 = sRGB, 1 = linear,
+// else value^gamma. channel: one of the file's alone ("r", "g", "b", "a" or "y", or a name that the file gives), spread
+// over all three; alpha is always linear. Throws ImageError.
 Image readImage(const std::string& path, float gamma = 0, const std::string& channel = "");
 
 // Text, numbers and whole numbers that go into an EXR's header.

@@ -41,7 +41,7 @@ std::unique_ptr<SceneDocument> loadSceneDocument(const std::string& file,
                                                  const std::string& confine = "");
 
 // The path of a file that an element names: relative to the file the element stands in, then to the
-// folders of <path>, then to the scene file. Throws SceneError when there is no such file. Notes it among the document's.
+// folders of <path>, then to the scene file. Throws SceneError when there is no such file. Adds it to document.files.
 std::string resolveFile(const SceneDocument& document, const XmlElement& element,
                         std::string_view attribute);
 
