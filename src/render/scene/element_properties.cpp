@@ -85,7 +85,7 @@ bool matches(const Parameter& parameter, std::string_view written) {
 
 std::string checkedChoice(const Parameter& parameter, const std::string& value) {
   if (parameter.choices.empty()) return value;
-  const std::string word = lowerCase(trimmed(value));
+  std::string word = lowerCase(trimmed(value));
   const Names choices = splitChoices(parameter.choices);
   for (const std::string& choice : choices)
     if (lowerCase(choice) == word) return word;
@@ -406,7 +406,7 @@ Motion ElementProperties::motion(std::string_view name) const {
   if (child->name != "animation") return Motion(glm::dmat4(readTransform(*child)));
   const std::vector<Motion::Keyframe> frames = readAnimation(*child);
   const double open = context_.scene.camera.shutterOpen, close = context_.scene.camera.shutterClose;
-  const Motion seen(frames, open, close);
+  Motion seen(frames, open, close);
   if (!seen.moves() && Motion(frames, frames.front().time, frames.back().time).moves())
     context_.note("an <animation> is not seen to move: the shutter is open from " +
                   std::to_string(open) + " to " + std::to_string(close));
