@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # scripts/fuzz.sh [SECONDS [TARGET...]]: builds the programs of tests/fuzz with libFuzzer and sanitizers and gives each
-# (or those named: xml, obj, ply, serialized, image, path_text) so many seconds (default 60), one a core at a time. What
-# leads to new code is kept in build/fuzz/corpus and begun from the next time. Exit code 1 on a finding; its input is
-# kept in build/fuzz/findings, and is tried again by: build/fuzz/tests/fuzz/h2mc_fuzz_TARGET FILE
+# (or those named: xml, obj, ply, serialized, image, path_text, checkpoint) so many seconds (default 60), one a core at
+# a time. What leads to new code is kept in build/fuzz/corpus and begun from the next time. Exit code 1 on a finding; its
+# input is kept in build/fuzz/findings, and is tried again by: build/fuzz/tests/fuzz/h2mc_fuzz_TARGET FILE
 set -uo pipefail
 root=$(cd -P -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." >/dev/null && pwd)
 source "$root/scripts/lib.sh"
@@ -12,7 +12,7 @@ case ${1-} in -h | --help) sed -n '2,/^set/{/^set/d;/SPDX/d;s/^# \{0,1\}//p}' "$
 seconds=${1-60}
 [[ $seconds =~ ^[1-9][0-9]*$ ]] || { say "expected a number of seconds, got \"$seconds\""; exit 2; }
 (($#)) && shift
-all=(xml obj ply serialized image path_text)
+all=(xml obj ply serialized image path_text checkpoint)
 targets=("$@")
 (($#)) || targets=("${all[@]}")
 for target in "${targets[@]}"; do
@@ -26,8 +26,8 @@ for target in "${targets[@]}"; do build fuzz "h2mc_fuzz_$target" || exit; done
 # Libraries keep what they allocate; leaks are looked for in the unit tests.
 export ASAN_OPTIONS=detect_leaks=0:strict_string_checks=1:allocator_may_return_null=0
 export UBSAN_OPTIONS=print_stacktrace=1
-# Inputs are written to files: in memory where that is there.
-inputs=$(mktemp -d -p "$([[ -w /dev/shm ]] && echo /dev/shm || echo /tmp)" h2mc-fuzz-XXXXXX)
+# Inputs are written to files, in a folder that goes with this script.
+inputs=$(mktemp -d -t h2mc-fuzz-XXXXXX)
 trap 'rm -rf "$inputs"' EXIT
 export TMPDIR=$inputs
 mkdir -p "$folder/findings" "$folder/logs"

@@ -119,6 +119,28 @@ class Test(unittest.TestCase):
         self.assertEqual(self.files(), files, "a failure leaves nothing behind")
         return result
 
+    def refuses_at_once(self, *arguments, says, megabytes):
+        """Exit code 2 and a message that holds all of `says`, within 10 s of processor time and so much memory.
+        Returns the message."""
+        with subprocess.Popen([BINARY, *map(str, arguments)], cwd=self.folder, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
+            message = process.stderr.read()
+            _, status, usage = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+        self.assertEqual(process.returncode, 2, f"{arguments}: {message}")
+        self.assertLess(usage.ru_utime + usage.ru_stime, 10, arguments)
+        if "san" not in BINARY:  # sanitizers keep what was freed
+            self.assertLess(usage.ru_maxrss / 1024, megabytes, arguments)
+        for words in says:
+            self.assertIn(words, message, arguments)
+        return message
+
+    def picture(self, name):
+        """read_exr() without what differs from run to run, for equal renders."""
+        attributes, pixels = self.read_exr(name)
+        return {key: value for key, value in attributes.items()
+                if key not in ("wallSeconds", "cpuSeconds", "threads")}, pixels
+
     def write_png(self, name, width, height, pixel):
         """8 bits a channel; pixel(x, y) gives (r, g, b)."""
         def chunk(kind, data):

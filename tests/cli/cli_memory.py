@@ -2,9 +2,6 @@
 # SPDX-License-Identifier: MIT
 """A render that needs more memory than there is: exit code 2 at once, with the figures and the option that decides."""
 
-import os
-import subprocess
-import unittest
 
 import _h2mc
 
@@ -13,16 +10,7 @@ METHODS = [name for name in _h2mc.INTEGRATORS if name not in ("path", "bdpt")]
 
 class Memory(_h2mc.Test):
     def refused(self, *arguments, says):
-        with subprocess.Popen([_h2mc.BINARY, *map(str, arguments)], cwd=self.folder, stdout=subprocess.DEVNULL,
-                              stderr=subprocess.PIPE, text=True) as process:
-            message = process.stderr.read()
-            _, status, usage = os.wait4(process.pid, 0)
-            process.returncode = os.waitstatus_to_exitcode(status)
-        self.assertEqual(process.returncode, 2, f"{arguments}: {message}")
-        self.assertLess(usage.ru_utime + usage.ru_stime, 10, arguments)
-        self.assertLess(usage.ru_maxrss / 1024, 400, arguments)
-        for words in says:
-            self.assertIn(words, message, arguments)
+        self.refuses_at_once(*arguments, says=says, megabytes=400)
         self.assertNotIn("out.exr", self.files())
 
     def setUp(self):

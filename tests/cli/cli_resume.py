@@ -8,11 +8,8 @@ import re
 import signal
 import subprocess
 import time
-import unittest
 
 import _h2mc
-
-TIMING = ("wallSeconds", "cpuSeconds", "threads", "programVersion", "scene")
 
 
 class Resume(_h2mc.Test):
@@ -23,10 +20,6 @@ class Resume(_h2mc.Test):
     def arguments(self, integrator, budget, *more):
         option = "-s" if integrator in ("path", "bdpt") else "-m"
         return ["render", "scene.xml", "-i", _h2mc.quick(integrator), option, budget, *more]
-
-    def picture(self, name):
-        attributes, pixels = self.read_exr(name)
-        return {key: value for key, value in attributes.items() if key not in TIMING}, pixels
 
     def interrupt(self, command, seconds):
         process = subprocess.Popen([_h2mc.BINARY, *map(str, command)], cwd=self.folder, stderr=subprocess.PIPE,

@@ -9,15 +9,10 @@ import time
 
 import _h2mc
 
-TIMING = ("wallSeconds", "cpuSeconds", "threads")
 BUDGETS = {"path": 8000, "bdpt": 2000, "mmlt": 5000, "h2mc": 3000, "lmc": 3000, "rjmlt": 4000, "mlt": 2500}
 
 
 class Kill(_h2mc.Test):
-    def picture(self, name):
-        attributes, pixels = self.read_exr(name)
-        return {key: value for key, value in attributes.items() if key not in TIMING}, pixels
-
     # Killed at random moments, again and again, until it is through, with another number of threads each time: the
     # picture is that of a render to which nothing has happened.
     def test_kill_9(self):

@@ -5,8 +5,8 @@
 #include <chrono>
 #include <thread>
 
-#include "image_check.h"
 #include "render/integrator/parallel_rounds.h"
+#include "tiny_render.h"
 
 namespace h2mc {
 namespace {
@@ -71,23 +71,9 @@ TEST(Rounds, NoMarksAfterAnInterruption) {
 
 class Marks : public ::testing::TestWithParam<const char*> {
  protected:
-  static Scene ring() {
-    return test::readTestScene(H2MC_SOURCE_DIR "/scenes/ring/ring.xml", 24, 18);
-  }
-
   static RenderResult render(const Scene& scene, const RenderRequest& request, int direct) {
-    for (const IntegratorFactory& factory : allIntegrators())
-      if (factory.plugin.name == GetParam()) {
-        OptionSet options(factory.plugin);
-        options.set("maxDepth", "4");
-        if (options.has("chains")) {
-          options.set("chains", "16");
-          options.set("bootstrapSamples", "2000");
-          options.set("directSamples", std::to_string(direct));
-        }
-        return factory.create(options)->render(scene, request);
-      }
-    throw std::runtime_error("no such integrator");
+    return test::renderTiny(GetParam(), scene, request,
+                            {{"maxDepth", "4"}, {"directSamples", std::to_string(direct)}});
   }
 
   static bool same(const Image& a, const Image& b) { return a.pixels == b.pixels; }
@@ -95,7 +81,7 @@ class Marks : public ::testing::TestWithParam<const char*> {
 
 // The chains go on as if nobody had looked, whatever the number of threads.
 TEST_P(Marks, ChangeNothing) {
-  const Scene scene = ring();
+  const Scene scene = test::tinyRing();
   RenderRequest request;
   request.budget.mutationsPerPixel = 40;
   request.seed = 3;
@@ -127,7 +113,7 @@ TEST_P(Marks, ChangeNothing) {
 
 // Direct lighting that is split off grows with the marks, and is the same for any number of threads.
 TEST_P(Marks, DirectLightingGrows) {
-  const Scene scene = ring();
+  const Scene scene = test::tinyRing();
   RenderRequest request;
   request.budget.mutationsPerPixel = 64;
   request.marks = {16, 64};

@@ -4,9 +4,9 @@
 
 #include <sstream>
 
-#include "image_check.h"
 #include "render/core/archive.h"
 #include "render/integrator/parallel_rounds.h"
+#include "tiny_render.h"
 
 namespace h2mc {
 namespace {
@@ -74,17 +74,7 @@ TEST(Archive, RefusesWhatCannotBe) {
 class Resume : public ::testing::TestWithParam<const char*> {
  protected:
   static RenderResult render(const Scene& scene, const RenderRequest& request) {
-    for (const IntegratorFactory& factory : allIntegrators())
-      if (factory.plugin.name == GetParam()) {
-        OptionSet options(factory.plugin);
-        options.set("maxDepth", "5");
-        if (options.has("chains")) {
-          options.set("chains", "16");
-          options.set("bootstrapSamples", "2000");
-        }
-        return factory.create(options)->render(scene, request);
-      }
-    throw std::runtime_error("no such integrator");
+    return test::renderTiny(GetParam(), scene, request, {{"maxDepth", "5"}});
   }
 
   static RenderRequest request(long long budget, int threads) {
@@ -120,15 +110,12 @@ class Resume : public ::testing::TestWithParam<const char*> {
     EXPECT_EQ(archive.left(), 0u);
     return result;
   }
-  static Scene ring() {
-    return test::readTestScene(H2MC_SOURCE_DIR "/scenes/ring/ring.xml", 24, 18);
-  }
 };
 
 // From any moment, in the first direct light, in an epoch and between two, with another number of threads: the image,
 // its brightness and the number of samples are those of a render that nobody has interrupted or watched.
 TEST_P(Resume, GivesTheSameImage) {
-  const Scene scene = ring();
+  const Scene scene = test::tinyRing();
   const RenderResult plain = render(scene, request(150, 1));
   std::vector<Saved> states;
   const RenderResult watched = renderAndSave(scene, request(150, 2), states);
@@ -147,7 +134,7 @@ TEST_P(Resume, GivesTheSameImage) {
 
 // A finished render takes more; one that has all that it was to have is not changed.
 TEST_P(Resume, TakesALargerBudget) {
-  const Scene scene = ring();
+  const Scene scene = test::tinyRing();
   std::vector<Saved> states;
   const RenderResult first = renderAndSave(scene, request(20, 2), states);
   ASSERT_TRUE(states.back().over);
@@ -165,7 +152,7 @@ TEST_P(Resume, TakesALargerBudget) {
 
 // The clock goes on too.
 TEST_P(Resume, TimeIsThatOfBoth) {
-  const Scene scene = ring();
+  const Scene scene = test::tinyRing();
   RenderRequest r = request(0, 2);
   r.budget.seconds = 0.4;
   std::vector<Saved> states;
@@ -180,7 +167,7 @@ TEST_P(Resume, TimeIsThatOfBoth) {
 
 // What was saved for another render is refused where it would not fit.
 TEST_P(Resume, RefusesWhatDoesNotFit) {
-  const Scene scene = ring();
+  const Scene scene = test::tinyRing();
   std::vector<Saved> states;
   renderAndSave(scene, request(20, 1), states);
   const Scene other = test::readTestScene(H2MC_SOURCE_DIR "/scenes/ring/ring.xml", 12, 9);

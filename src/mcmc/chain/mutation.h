@@ -49,7 +49,8 @@ struct NotFiniteCounts {
 // What a mutation works with; one a group of chains.
 struct MutationContext {
   Random* random = nullptr;
-  Slots* memory = nullptr;  // of the chain, whatever its state; null where no chain runs
+  // Of the chain, whatever its state, for up to Chain::kDerivedAnew steps; null where no chain runs.
+  Slots* memory = nullptr;
   // What the mutation adds up for its learn(), which gets the sums of all groups; null where nobody learns.
   std::vector<double>* sums = nullptr;
   DerivativeCounts derivatives;

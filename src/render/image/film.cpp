@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "render/core/archive.h"
+#include "render/core/parallel.h"
 
 namespace h2mc {
 namespace {
@@ -192,10 +193,11 @@ Rgbf BasicFilm<Real>::pixel(int x, int y, double scale) const {
 }
 
 template <class Real>
-Image BasicFilm<Real>::develop(double scale) const {
+Image BasicFilm<Real>::develop(double scale, int threads) const {
   Image image(settings_.width, settings_.height);
-  for (int y = 0; y < settings_.height; ++y)
+  parallelFor(threads, settings_.height, [&](int y) {
     for (int x = 0; x < settings_.width; ++x) image.at(x, y) = pixel(x, y, scale);
+  });
   return image;
 }
 

@@ -60,7 +60,7 @@ class BasicFilm {
   // unit square". So n samples of L, uniform on the film, are developed with 1 / n, whether they are
   // independent or n / (width * height) in each pixel; and so are n mutations of a Markov chain that
   // splat L / (target's density), or L / luminance(L) * (mean luminance of the film).
-  Image develop(double scale) const;
+  Image develop(double scale, int threads = 1) const;
   // One pixel of it.
   Rgbf pixel(int x, int y, double scale) const;
   // The rows 0, step, 2 * step, .. of the picture that a half makes by itself, grey.

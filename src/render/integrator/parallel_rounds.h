@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "render/core/parallel.h"
 #include "render/integrator/integrator.h"
 
 namespace h2mc {
@@ -69,8 +70,5 @@ RoundsResult runRounds(const RenderRequest& request, const RenderClock& clock, i
 // Seconds since some fixed point, and of processor time this process has used.
 double wallClock();
 double cpuClock();
-
-// Calls work(0 .. count - 1) in parallel on `threads` threads (0: one a core).
-void parallelFor(int threads, int count, const std::function<void(int)>& work);
 
 }  // namespace h2mc

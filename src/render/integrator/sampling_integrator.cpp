@@ -53,11 +53,7 @@ RenderResult resultOf(const Scene& scene, const SampledFilm& sampled, int thread
   result.interrupted = rounds.interrupted;
   const SampleTally total = sampled.tally(0);
   const double scale = total.samples > 0 ? 1 / static_cast<double>(total.samples) : 0;
-  result.image = Image(scene.film.width, scene.film.height);
-  parallelFor(threads, scene.film.height, [&](int y) {
-    for (int x = 0; x < scene.film.width; ++x)
-      result.image.at(x, y) = sampled.film().pixel(x, y, scale);
-  });
+  result.image = sampled.film().develop(scale, threads);
   result.samples = total.samples;
   result.sampleUnit = "samples";
   result.meanLuminance = total.meanLuminance();
