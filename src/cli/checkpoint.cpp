@@ -61,13 +61,18 @@ std::vector<std::string> differences(const json& there, const json& here) {
     for (const auto& [name, value] : b.items()) {
       const json other = a.value(name, json());
       if (other == value || value.is_object()) continue;
-      found.push_back(fmt::format("{}{} is {} there and {} here", what, name,
-                                  other.is_null() ? "missing" : plain(other), plain(value)));
+      found.push_back(fmt::format(
+          "{}{} is {} there and {} here", what, name,
+          other.is_primitive() && !other.is_null() ? plain(other) : "missing", plain(value)));
     }
   };
+  const auto part = [](const json& whole, const char* name) {
+    json found = whole.value(name, json());
+    return found.is_object() ? found : json::object();
+  };
   compare(there, here, "");
-  compare(there["options"], here["options"], "option ");
-  const json &old = there["files"], &now = here["files"];
+  compare(part(there, "options"), part(here, "options"), "option ");
+  const json old = part(there, "files"), now = part(here, "files");
   for (const auto& [file, sum] : now.items())
     if (!old.contains(file))
       found.push_back("\"" + file + "\" is not among its files");

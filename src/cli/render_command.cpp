@@ -241,6 +241,9 @@ int render(const RenderOptions& options) {
     } catch (const ArchiveError& e) {
       throw InputError("cannot go on from \"" + checkpointFile(options.keep, outputs.image) +
                        "\": " + e.what());
+    } catch (const FilmError& e) {
+      throw std::runtime_error(
+          fmt::format("\"{}\" by {}: {}", options.scene, plan.integrator.integrator(), e.what()));
     }
   }
   const int exitCode = write(plan, result);

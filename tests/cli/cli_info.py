@@ -19,6 +19,9 @@ CHANGES = {
                     '"alpha" of bsdf "roughconductor": 0 in the file, used: 0.0001'),
     "reflectance": (GREY, '<bsdf type="diffuse" id="grey"><rgb name="reflectance" value="2, 1, 1"/></bsdf>',
                     '"reflectance" of bsdf "diffuse": up to 2 in the file, used: times 0.495, to conserve energy'),
+    "spectrum": (GREY, '<bsdf type="diffuse" id="grey">'
+                       '<spectrum name="reflectance" value="500:0, 510:1, 520:1, 530:0"/></bsdf>',
+                 '"reflectance" of bsdf "diffuse": a spectrum beyond Rec. 709, (-'),
     "weights": (GREY, '<bsdf type="mixturebsdf" id="grey"><string name="weights" value="1, 3"/>'
                       '<bsdf type="diffuse"/><bsdf type="diffuse"/></bsdf>',
                 '"weights" of bsdf "mixturebsdf": a sum of 4 in the file, used: a sum of 1, to conserve energy'),

@@ -3,6 +3,7 @@
 """Writes the binary files of the corpus, and the files that its scenes refer to. The scenes and texts beside them are
 written by hand. What a fuzzer has found lies in the corpus too, under names that say what it was."""
 
+import json
 import os
 import struct
 import sys
@@ -95,6 +96,18 @@ def half_exr():
             + struct.pack("<5i", 0, 0, 0, 0, len(pixels)) + pixels)
 
 
+def checkpoint():
+    """With the identity and a state as checkpoint.cpp has them."""
+    def text(value):
+        return struct.pack("<Q", len(value)) + value
+    identity = {"program version": "0", "files": {"scene.xml": "12345678"}, "width": 16, "height": 12,
+                "integrator": "h2mc", "options": {"maxDepth": "4"}, "seed": 7}
+    data = (text(b"h2mc checkpoint 1\n") + text(json.dumps(identity).encode()) + struct.pack("<Q2d", 2, 0.5, 2)
+            + struct.pack("<Q", 2) + text(b"a") + text(b"") + struct.pack("<Q3f", 3, 1, 2, 3)
+            + struct.pack("<Bq", 1, 9) + struct.pack("<3i", 1, 2, 3))
+    return data + struct.pack("<I", zlib.crc32(data))
+
+
 OBJ = """# a pyramid
 v -1 -1 0
 v 1 -1 0
@@ -130,6 +143,7 @@ def main():
     save("corpus/image/grey16.png", png(2, 2, 16, 0, b"\0\0\1\0\2\1\1\0\2\0"))
     save("corpus/image/palette.png", png(4, 2, 2, 3, b"\0\x1b\0\xe4", (b"PLTE", bytes(range(12))),
                                          (b"tRNS", b"\0\x80\xff")))
+    save("corpus/checkpoint/whole.checkpoint", checkpoint())
     save("files/mesh.obj", OBJ.encode())
     save("files/mesh.ply", ply("binary_little_endian"))
     save("files/mesh.serialized", serialized(4, False, 2))

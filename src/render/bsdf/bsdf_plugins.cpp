@@ -203,9 +203,7 @@ void readFacets(const Properties& p, FacetSurface& b) {
 Rgbf conductorColor(const Properties& p, std::string_view name) {
   constexpr float kHighest = 1e4f;
   const Rgbf given = p.color(name), color = glm::abs(given);
-  if (given != color)
-    noteChange(p, name, fmt::format("({:g}, {:g}, {:g})", given.x, given.y, given.z),
-               "its absolute value");
+  if (given != color) noteChange(p, name, colorText(given), "its absolute value");
   if (!(largest(color) <= kHighest))
     p.fail(name, fmt::format("\"{}\" is up to {:g}, expected values from {:g} to {:g}", name,
                              largest(color), -kHighest, kHighest));

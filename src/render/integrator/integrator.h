@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -85,8 +86,14 @@ struct RenderResult {
   nlohmann::json statistics;
 };
 
+// A picture that is not one. what() names the pixel.
+class FilmError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 // Image and mean luminance in the file's units. What a filter with negative lobes has left below zero becomes zero.
-// Throws UserError where a pixel is beyond float in these units, std::runtime_error where one is not finite before.
+// Throws UserError where a pixel is beyond float in these units, FilmError where one is not finite before.
 void finish(const Scene& scene, RenderResult& result);
 
 class Integrator {

@@ -25,7 +25,7 @@ void finish(const Scene& scene, RenderResult& result) {
       Rgbf& pixel = image.at(x, y);
       const auto place = [&] { return fmt::format("pixel ({}, {}) of the picture", x, y); };
       if (!ad::isFinite(pixel))
-        throw std::runtime_error(place() + " is not finite: sums on the film are beyond float");
+        throw FilmError(place() + " is not finite: sums on the film are beyond float");
       pixel = glm::max(Rgbf(glm::dvec3(pixel) * unit), Rgbf(0));
       if (!ad::isFinite(pixel))
         throw UserError(place() +

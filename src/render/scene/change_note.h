@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "render/core/types.h"
 #include "render/scene/source_text.h"
 
 namespace h2mc {
@@ -15,6 +16,9 @@ inline constexpr std::string_view kChangeNote = "changed: ";
 // The note: `what` is `given` in the file, and `used` instead.
 std::string changeNote(const SourcePlace& place, const std::string& what, const std::string& given,
                        const std::string& used);
+
+// "(r, g, b)".
+std::string colorText(const Rgbf& color);
 
 // What properties are that have somebody to tell.
 class ChangeListener {

@@ -41,7 +41,8 @@ bool isPlainSpectrum(const XmlElement& element) {
 }
 
 // Before it is known to be within float.
-static Rgbf anyColor(const SceneDocument& document, const XmlElement& element, bool mayBeNegative) {
+static Rgbf anyColor(const SceneDocument& document, const XmlElement& element, bool mayBeNegative,
+                     Rgbf* saturated) {
   if (isPlainSpectrum(element)) {
     // White (d65 is the white of RGB) times the numbers and colours inside.
     element.allowAttributes({"name", "type", "id"});
@@ -53,7 +54,7 @@ static Rgbf anyColor(const SceneDocument& document, const XmlElement& element, b
                           "<" + child.name + " name=\"" + name + "\"> inside <spectrum>",
                           "expected <float name=\"value\"/>, <float name=\"scale\"/> or "
                           "<rgb name=\"color\"/>");
-      product *= readColor(document, child, mayBeNegative);
+      product *= readColor(document, child, mayBeNegative, saturated);
     }
     return product;
   }
@@ -73,8 +74,7 @@ static Rgbf anyColor(const SceneDocument& document, const XmlElement& element, b
         scale *= parseNumber(element.attribute(name));
       }
       if (scale < 0) throw ValueError("a scale must not be negative");
-      const Rgbf c = blackbodyToRgb(temperature) * static_cast<float>(scale);
-      return c;
+      return intoGamut(blackbodyToRgb(temperature) * static_cast<float>(scale), saturated);
     }
     if (element.name == "spectrum" && element.find("filename")) {
       element.allowAttributes({"name", "filename"});
@@ -86,11 +86,11 @@ static Rgbf anyColor(const SceneDocument& document, const XmlElement& element, b
       } catch (const std::runtime_error& e) {
         throw sourceError(element.place("filename"), "cannot read \"" + file + "\": " + e.what());
       }
-      return parseSpectrum(pairsOfFile(content), mayBeNegative);
+      return parseSpectrum(pairsOfFile(content), mayBeNegative, saturated);
     }
     element.allowAttributes({"name", "value", "intent"});
     const std::string& text = element.require("value");
-    if (element.name == "spectrum") return parseSpectrum(text, mayBeNegative);
+    if (element.name == "spectrum") return parseSpectrum(text, mayBeNegative, saturated);
     if (element.name == "rgb" || element.name == "srgb")
       return parseRgb(text, element.name == "srgb", mayBeNegative);
     const double grey = parseNumber(text);
@@ -103,8 +103,9 @@ static Rgbf anyColor(const SceneDocument& document, const XmlElement& element, b
   }
 }
 
-Rgbf readColor(const SceneDocument& document, const XmlElement& element, bool mayBeNegative) {
-  const Rgbf color = anyColor(document, element, mayBeNegative);
+Rgbf readColor(const SceneDocument& document, const XmlElement& element, bool mayBeNegative,
+               Rgbf* saturated) {
+  const Rgbf color = anyColor(document, element, mayBeNegative, saturated);
   if (!ad::isFinite(color))
     throw sourceError(element.place(), "the colour is too large",
                       "expected products, and sums over a spectrum, up to 3.4e38");

@@ -13,8 +13,8 @@ bool isColorElement(std::string_view name);
 // Mitsuba 2's and 3's spectra that are a plugin and yet a single colour.
 bool isPlainSpectrum(const XmlElement& element);
 
-// The colour that an <rgb>, <srgb>, <spectrum>, <blackbody> or number element gives.
-Rgbf readColor(const SceneDocument& document, const XmlElement& element,
-               bool mayBeNegative = false);
+// The colour that an <rgb>, <srgb>, <spectrum>, <blackbody> or number element gives; of a spectrum, see intoGamut().
+Rgbf readColor(const SceneDocument& document, const XmlElement& element, bool mayBeNegative = false,
+               Rgbf* saturated = nullptr);
 
 }  // namespace h2mc

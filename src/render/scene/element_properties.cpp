@@ -292,7 +292,12 @@ void ElementProperties::checkValue(const Parameter& parameter, const XmlElement&
       }
       case ParameterType::kColor:
       case ParameterType::kTexture: {
-        const Rgbf color = readColor(context_.document, child, parameter.mayBeNegative);
+        Rgbf saturated(0);
+        const Rgbf color = readColor(context_.document, child, parameter.mayBeNegative, &saturated);
+        if (saturated != Rgbf(0))
+          context_.note(changeNote(
+              child.place(), "\"" + std::string(parameter.name) + "\" of " + description(),
+              "a spectrum beyond Rec. 709, " + colorText(saturated), colorText(color)));
         if (color.x < 0 || color.y < 0 || color.z < 0)
           context_.problems.warn(child.place("value"),
                                  "\"" + std::string(parameter.name) + "\" of " + description() +

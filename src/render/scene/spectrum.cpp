@@ -36,8 +36,7 @@ Rgbf integrate(const Function& spectrum) {
   const double r = 3.240479 * xyz.x - 1.537150 * xyz.y - 0.498535 * xyz.z;
   const double g = -0.969256 * xyz.x + 1.875991 * xyz.y + 0.041556 * xyz.z;
   const double b = 0.055648 * xyz.x - 0.204043 * xyz.y + 1.057311 * xyz.z;
-  return Rgbf(static_cast<float>(std::max(r, 0.0)), static_cast<float>(std::max(g, 0.0)),
-              static_cast<float>(std::max(b, 0.0)));
+  return Rgbf(glm::dvec3(r, g, b));
 }
 
 }  // namespace
@@ -60,6 +59,13 @@ Rgbf blackbodyToRgb(double temperature) {
     const double w = nanometres * 1e-9;
     return 2 * h * c * c / (std::pow(w, 5) * std::expm1(h * c / (w * k * temperature))) * 1e-9;
   });
+}
+
+Rgbf intoGamut(const Rgbf& color, Rgbf* saturated) {
+  const float least = std::min({color.x, color.y, color.z}),
+              most = std::max({color.x, color.y, color.z});
+  if (saturated && least < -1e-3f * most) *saturated = color;
+  return glm::max(color, Rgbf(0));
 }
 
 }  // namespace h2mc

@@ -125,7 +125,7 @@ Rgbf parseRgb(std::string_view text, bool srgb, bool mayBeNegative) {
   return color;
 }
 
-Rgbf parseSpectrum(std::string_view text, bool mayBeNegative) {
+Rgbf parseSpectrum(std::string_view text, bool mayBeNegative, Rgbf* saturated) {
   if (text.find(':') == std::string_view::npos) return parseRgb(text, false, mayBeNegative);
   std::vector<SpectrumSample> samples;
   for (std::string_view part : splitList(text)) {
@@ -138,7 +138,7 @@ Rgbf parseSpectrum(std::string_view text, bool mayBeNegative) {
     if (samples.back().value < 0 && !mayBeNegative)
       throw ValueError("a spectrum must not be negative");
   }
-  return spectrumToRgb(samples);
+  return intoGamut(spectrumToRgb(samples), saturated);
 }
 
 }  // namespace h2mc

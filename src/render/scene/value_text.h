@@ -34,7 +34,7 @@ std::vector<std::string_view> splitList(std::string_view text);
 // that is allowed.
 Rgbf parseRgb(std::string_view text, bool srgb, bool mayBeNegative = false);
 
-// A <spectrum>: one number, three numbers, or "wavelength:value, ..." in nanometres.
-Rgbf parseSpectrum(std::string_view text, bool mayBeNegative = false);
+// A <spectrum>: one number, three numbers, or "wavelength:value, ..." in nanometres, which intoGamut() makes a colour.
+Rgbf parseSpectrum(std::string_view text, bool mayBeNegative = false, Rgbf* saturated = nullptr);
 
 }  // namespace h2mc
