@@ -20,19 +20,22 @@ Proposal IsotropicStep::propose(ChainState& current, ChainState& proposed,
                                 MutationContext& context) {
   const Path& from = current.path;
   Path& to = proposed.path;
+  const float size = sizes_.of(from.technique.length());
   to.technique = from.technique;
   for (int i = 0; i < from.technique.dimension(); ++i)
-    to.sample.u[at(i)] = wrap(from.sample.u[at(i)] + offset(*context.random));
+    to.sample.u[at(i)] = wrap(from.sample.u[at(i)] + size * offset(*context.random));
   for (int i = 0; i < from.technique.choices(); ++i)
-    to.sample.choice[at(i)] = wrap(from.sample.choice[at(i)] + offset(*context.random));
+    to.sample.choice[at(i)] = wrap(from.sample.choice[at(i)] + size * offset(*context.random));
   to.sample.time = from.sample.time;
-  if (target_.hasTime()) to.sample.time = reflect(from.sample.time + offset(*context.random));
+  if (target_.hasTime())
+    to.sample.time = reflect(from.sample.time + size * offset(*context.random));
   return target_.evaluate(to) ? Proposal::withLogRatio(0) : Proposal::none();
 }
 
 MutationPlugin isotropicStep() {
   static constexpr Parameter kParameters[] = {
       kSigmaParameter,
+      kTargetAcceptanceParameter,
       {"smallStep", ParameterType::kString, "gaussian", "shape of the isotropic step",
        "gaussian|kelemen"},
   };
@@ -41,9 +44,13 @@ MutationPlugin isotropicStep() {
             const bool kelemen = setup.options.string("smallStep") == "kelemen";
             return std::make_unique<IsotropicStep>(
                 setup.target, kelemen ? StepShape::kKelemen : StepShape::kGaussian,
-                static_cast<float>(setup.options.number("sigma")));
+                static_cast<float>(setup.options.number("sigma")),
+                setup.options.number("targetAcceptance"));
           },
-          [](const OptionSet& options) { requireRange(options, "sigma", 1e-9, 1); }};
+          [](const OptionSet& options) {
+            requireRange(options, "sigma", 1e-9, 1);
+            requireAcceptance(options);
+          }};
 }
 
 }  // namespace h2mc

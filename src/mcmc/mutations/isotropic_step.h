@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mcmc/mutations/mutations.h"
+#include "mcmc/mutations/step_sizes.h"
 
 namespace h2mc {
 
@@ -17,10 +18,14 @@ enum class StepShape {
 class IsotropicStep final : public Mutation {
  public:
   // Keeps a reference.
-  IsotropicStep(const Target& target, StepShape shape, float sigma)
-      : target_(target), shape_(shape), sigma_(sigma) {}
+  IsotropicStep(const Target& target, StepShape shape, float sigma, double targetAcceptance = 0)
+      : target_(target), shape_(shape), sigma_(sigma), sizes_(targetAcceptance) {}
   std::string_view name() const override { return "isotropic"; }
   Proposal propose(ChainState& current, ChainState& proposed, MutationContext& context) override;
+  void learn(const ChainStatistics& statistics, std::size_t kind) override {
+    sizes_.learn(statistics.acceptance[kind]);
+  }
+  void archive(Archive& archive) override { sizes_.archive(archive); }
 
  private:
   float offset(Random& random) const;
@@ -28,6 +33,7 @@ class IsotropicStep final : public Mutation {
   const Target& target_;
   StepShape shape_;
   float sigma_;
+  StepSizes sizes_;
 };
 
 // By the options sigma and smallStep.

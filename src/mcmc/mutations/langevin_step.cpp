@@ -55,6 +55,7 @@ const float* GradientSquares::of(const Path& path) const {
 
 void LangevinStep::learn(const ChainStatistics& statistics, std::size_t kind) {
   squares_.learn(statistics.sums[kind]);
+  sizes_.learn(statistics.acceptance[kind]);
 }
 
 void LangevinStep::make(const Path& path, MutationContext& context, Gaussian& gaussian) const {
@@ -70,11 +71,12 @@ void LangevinStep::make(const Path& path, MutationContext& context, Gaussian& ga
   if (context.sums) GradientSquares::add(path, gradient, *context.sums);
   const float* const squares = squares_.of(path);
   const float prior = 1 / squared(sigma()), curvature = 1 / squared(settings_.stepSize);
+  const float size2 = squared(sizes_.of(path.technique.length()));
   gaussian.logNormalisation = 0;
   for (int i = 0; i < gaussian.dimension; ++i) {
     const float g = gradient.gradient[i];
     const float square = std::max(squared(g), squares ? squares[i] : 0);
-    const float variance = 1 / (prior + curvature * square), deviation = std::sqrt(variance);
+    const float variance = size2 / (prior + curvature * square), deviation = std::sqrt(variance);
     const float longest = settings_.maxDrift * deviation;
     gaussian.deviation[i] = deviation;
     gaussian.mean[i] = std::clamp(variance * g / 2, -longest, longest);
@@ -88,6 +90,7 @@ MutationPlugin langevinStep() {
       {"stepSize", ParameterType::kNumber, "1",
        "deviation of a Langevin step along a coordinate, times the derivatives met there"},
       kMaxDriftParameter,
+      kTargetAcceptanceParameter,
   };
   return {"langevin", "a step drawn from the Gaussian that the gradient gives by Langevin dynamics",
           kParameters,
@@ -96,13 +99,15 @@ MutationPlugin langevinStep() {
               return static_cast<float>(setup.options.number(name));
             };
             const LangevinStep::Settings settings{number("sigma"), number("stepSize"),
-                                                  number("maxDrift")};
+                                                  number("maxDrift"),
+                                                  setup.options.number("targetAcceptance")};
             return std::make_unique<LangevinStep>(setup.target, settings, setup.slots);
           },
           [](const OptionSet& options) {
             requireRange(options, "sigma", 1e-9, 1);
             requireRange(options, "stepSize", 1e-6, 1e6);
             requireRange(options, "maxDrift", 0, std::numeric_limits<double>::infinity());
+            requireAcceptance(options);
           }};
 }
 

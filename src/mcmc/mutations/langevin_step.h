@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mcmc/mutations/gaussian_step.h"
+#include "mcmc/mutations/step_sizes.h"
 #include "render/core/archive.h"
 
 namespace h2mc {
@@ -30,30 +31,34 @@ class GradientSquares {
 // 2020, "Langevin Monte Carlo Rendering with Gradient-based Adaptation"]. With g the gradient of the log target at
 // the state and G_i the mean of g_i^2 over the states of past epochs in the same technique, coordinate i moves by
 //
-//     N(variance_i g_i / 2, variance_i),    1 / variance_i = 1 / sigma^2 + max(G_i, g_i^2) / stepSize^2,
+//     N(variance_i g_i / 2, variance_i),    f^2 / variance_i = 1 / sigma^2 + max(G_i, g_i^2) / stepSize^2,
 //
-// the drift bounded to maxDrift deviations. The Gaussian is a function of the state while an epoch lasts, and the
-// reverse density is that of the Gaussian at the proposal: the step is exact. (The authors' program lets the
-// preconditioner follow the chain, whose reverse density is another one.)
+// f being StepSizes' factor, the drift bounded to maxDrift deviations. The Gaussian is a function of the state while an
+// epoch lasts, and the reverse density is that of the Gaussian at the proposal: the step is exact. (The authors'
+// program lets the preconditioner follow the chain, whose reverse density is another one.)
 class LangevinStep final : public GaussianStep {
  public:
   struct Settings {
     float sigma = 0.01f;
     float stepSize = 1;
     float maxDrift = 3;
+    double targetAcceptance = 0;  // as StepSizes
   };
   // Keeps a reference.
   LangevinStep(const Target& target, const Settings& settings, SlotNumbers& slots)
-      : GaussianStep(target, settings.sigma, slots), settings_(settings) {}
+      : GaussianStep(target, settings.sigma, slots),
+        settings_(settings),
+        sizes_(settings.targetAcceptance) {}
   std::string_view name() const override { return "langevin"; }
   void learn(const ChainStatistics& statistics, std::size_t kind) override;
-  void archive(Archive& archive) override { archive(squares_); }
+  void archive(Archive& archive) override { archive(squares_, sizes_); }
 
  private:
   void make(const Path& path, MutationContext& context, Gaussian& gaussian) const override;
 
   Settings settings_;
   GradientSquares squares_;
+  StepSizes sizes_;
 };
 
 MutationPlugin langevinStep();

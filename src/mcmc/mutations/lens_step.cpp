@@ -13,7 +13,10 @@
 
 namespace h2mc {
 LensStep::LensStep(const PathTarget& target, const Settings& settings, SlotNumbers& slots)
-    : target_(target), settings_(settings), gaussian_(slots.add<Gaussian>()) {
+    : target_(target),
+      settings_(settings),
+      gaussian_(slots.add<Gaussian>()),
+      sizes_(settings.targetAcceptance) {
   isotropicGaussian(2, settings.hamiltonian.sigma, round_);
 }
 
@@ -79,7 +82,9 @@ Proposal LensStep::propose(ChainState& current, ChainState& proposed, MutationCo
   const Gaussian& gaussian = gaussianAt(current, reconnection, context);
   float offset[2];
   gaussian.sample(random, offset);
-  const float filmX = from.sample.u[0] + offset[0], filmY = from.sample.u[1] + offset[1];
+  const float size = sizes_.of(from.technique.length());
+  const float filmX = from.sample.u[0] + size * offset[0],
+              filmY = from.sample.u[1] + size * offset[1];
   if (!(filmX >= 0 && filmX < 1 && filmY >= 0 && filmY < 1)) return Proposal::none();
 
   to.technique = from.technique;
@@ -98,7 +103,7 @@ Proposal LensStep::propose(ChainState& current, ChainState& proposed, MutationCo
     if (i > 1 && !(to.camera[at(i) - 1].lobe == from.camera[at(i) - 1].lobe))
       return Proposal::none();
     if (step == Step::kArrived) continue;
-    to.escaped = step == Step::kEscaped && s == 0 && i == last && scene.environment >= 0;
+    to.escaped = step == Step::kEscaped && s == 0 && i == last && scene.hasEnvironment();
     if (!to.escaped) return Proposal::none();
   }
 
@@ -142,6 +147,7 @@ MutationPlugin lensStep() {
        "respect to the film position",
        "isotropic|hessian"},
       kRoughnessThresholdParameter,
+      kTargetAcceptanceParameter,
   };
   return {"lens", "the pixel moves a little, the path stays where it is as soon as it can",
           kParameters,
@@ -150,9 +156,13 @@ MutationPlugin lensStep() {
             settings.hamiltonian.sigma = static_cast<float>(setup.options.number("lensSigma"));
             settings.hessian = setup.options.string("lensStep") == "hessian";
             settings.threshold = roughnessThreshold(setup.options);
+            settings.targetAcceptance = setup.options.number("targetAcceptance");
             return std::make_unique<LensStep>(setup.target, settings, setup.slots);
           },
-          [](const OptionSet& options) { requireRange(options, "lensSigma", 1e-9, 1); }};
+          [](const OptionSet& options) {
+            requireRange(options, "lensSigma", 1e-9, 1);
+            requireAcceptance(options);
+          }};
 }
 
 }  // namespace h2mc

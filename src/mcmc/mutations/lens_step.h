@@ -5,6 +5,7 @@
 
 #include "mcmc/mutations/gaussian.h"
 #include "mcmc/mutations/mutations.h"
+#include "mcmc/mutations/step_sizes.h"
 
 namespace h2mc {
 
@@ -23,7 +24,8 @@ class LensStep final : public Mutation {
   struct Settings {
     HamiltonianSettings hamiltonian;
     bool hessian = false;
-    float threshold = 0.1f;  // lobes narrower than this, in radians, are traced through
+    float threshold = 0.1f;       // lobes narrower than this, in radians, are traced through
+    double targetAcceptance = 0;  // of the round Gaussian: as StepSizes
   };
   // Keeps a reference.
   LensStep(const PathTarget& target, const Settings& settings, SlotNumbers& slots);
@@ -31,6 +33,10 @@ class LensStep final : public Mutation {
   // Where the film position is a coordinate.
   bool applies(const Path& path) const override { return path.technique.t >= 2; }
   Proposal propose(ChainState& current, ChainState& proposed, MutationContext& context) override;
+  void learn(const ChainStatistics& statistics, std::size_t kind) override {
+    if (!settings_.hessian) sizes_.learn(statistics.acceptance[kind]);
+  }
+  void archive(Archive& archive) override { sizes_.archive(archive); }
   // The first camera vertex whose scattering can be replaced by a reconnection to the next vertex;
   // t - 1 if there is none: then the whole subpath is traced again.
   int reconnectionVertex(const Path& path) const;
@@ -48,6 +54,7 @@ class LensStep final : public Mutation {
   Settings settings_;
   Gaussian round_;  // the same at every state
   Slot<Gaussian> gaussian_;
+  StepSizes sizes_;
 };
 
 // By the options lensSigma, lensStep and roughnessThreshold.

@@ -9,6 +9,13 @@ namespace h2mc {
 inline constexpr Parameter kSigmaParameter = {
     "sigma", ParameterType::kNumber, "0.01",
     "standard deviation of isotropic steps, and of the prior of those that derivatives give"};
+inline constexpr Parameter kTargetAcceptanceParameter = {
+    "targetAcceptance", ParameterType::kNumber, "0",
+    "the size of isotropic, lens and Langevin steps is changed between epochs, for each length of "
+    "paths, until this share of them is accepted; 0: it stays as it is"};
+inline void requireAcceptance(const OptionSet& options) {
+  requireRange(options, "targetAcceptance", 0, 0.99);
+}
 inline constexpr Parameter kMaxDriftParameter = {
     "maxDrift", ParameterType::kNumber, "3",
     "longest drift of a proposal along an eigenvector or axis, in its standard deviations"};
