@@ -154,20 +154,40 @@ TEST(SampledFilm, AShortPassIsSpreadEvenly) {
   }
 }
 
-// All of them once, in as many rounds as make a pass; a pass after the first is never cut short.
-TEST(SampledFilm, PassesAreWhole) {
+// Whoever waits for an interrupted render does not wait for a pass, and the picture is as even as before.
+TEST(SampledFilm, StopsWithinAPass) {
   Scene scene;
-  scene.film = settings(1001, 777, Filter::Kind::kBox, 0.5f);
+  scene.film = settings(1600, 1200, Filter::Kind::kBox, 0.5f);
   SampledFilm sampled(scene, [] { return std::make_unique<Position>(); });
   std::atomic<bool> stop{false};
   RenderRequest request;
   request.stop = &stop;
   RoundsPlan plan;
   plan.rounds = 5 * sampled.roundsAPass();
-  request.progress = [&](const RenderProgress& p) { stop = stop || p.fraction > 0.21; };
+  request.progress = [&](const RenderProgress& p) { stop = stop || p.fraction > 0.27; };
   const RoundsResult result = sampled.add(request, RenderClock(), plan);
   EXPECT_TRUE(result.interrupted);
-  EXPECT_EQ(result.rounds, 2 * sampled.roundsAPass());
+  EXPECT_EQ(result.rounds, 5 * sampled.roundsAPass() * 27 / 100 + 1);
+  const Image image = sampled.film().develop(1 / static_cast<double>(sampled.tally(0).samples));
+  constexpr int kBlock = 100;
+  for (int y = 0; y < 1200; y += kBlock)
+    for (int x = 0; x < 1600; x += kBlock) {
+      double sum = 0;
+      for (int j = 0; j < kBlock; ++j)
+        for (int i = 0; i < kBlock; ++i) sum += image.at(x + i, y + j).z;
+      EXPECT_NEAR(sum / kBlock / kBlock, 1, 0.03);
+    }
+}
+
+// All pixels once, in as many rounds as make a pass; a pass after the first is not cut short by the time.
+TEST(SampledFilm, PassesAreWhole) {
+  Scene scene;
+  scene.film = settings(1001, 777, Filter::Kind::kBox, 0.5f);
+  SampledFilm sampled(scene, [] { return std::make_unique<Position>(); });
+  RenderRequest request;
+  RoundsPlan plan;
+  plan.rounds = 2 * sampled.roundsAPass();
+  sampled.add(request, RenderClock(), plan);
   EXPECT_EQ(sampled.tally(0).samples, 2 * 1001 * 777);
   // Rounding may put a sample into the next pixel, once in some 30,000.
   int others = 0;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "ad/traits.h"
+#include "render/core/parallel.h"
 #include "render/core/user_error.h"
 #include "render/integrator/bdpt_integrator.h"
 #include "render/integrator/path_integrator.h"
@@ -20,7 +21,7 @@ std::span<const IntegratorFactory> renderIntegrators() {
 void finish(const Scene& scene, RenderResult& result) {
   const double unit = scene.radianceUnit;
   Image& image = result.image;
-  for (int y = 0; y < image.height; ++y)
+  parallelFor(0, image.height, [&](int y) {
     for (int x = 0; x < image.width; ++x) {
       Rgbf& pixel = image.at(x, y);
       const auto place = [&] { return fmt::format("pixel ({}, {}) of the picture", x, y); };
@@ -32,6 +33,7 @@ void finish(const Scene& scene, RenderResult& result) {
                         " is too bright for an image file, which holds values up to 3.4e38: "
                         "give all lights smaller values");
     }
+  });
   result.meanLuminance *= unit;
   result.meanLuminanceError *= unit;
 }

@@ -72,7 +72,7 @@ RoundsResult runRounds(const RenderRequest& request, const RenderClock& clock, i
   std::size_t mark = 0;
   while (plan.rounds == 0 || result.rounds < plan.rounds) {
     // One round at least: an interruption never leaves an empty picture.
-    if (made() > 0 && mayEnd() && stopped()) {
+    if (made() > 0 && (plan.stopsInPass || mayEnd()) && stopped()) {
       result.interrupted = true;
       break;
     }

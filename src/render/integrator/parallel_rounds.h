@@ -41,9 +41,10 @@ struct RoundsPlan {
   long long rounds = 0;  // 0: until the time is up
   long long begin = 0;   // rounds of these that were made before
   double seconds = 0;    // on the clock; 0: until the rounds are done
-  // So many rounds make one pass. The first may be cut short by the time or the stop flag, later ones are
-  // completed, and marks lie between them.
+  // So many rounds make one pass. The first may be cut short by the time or the stop flag, later ones are completed
+  // (but for the stop flag where stopsInPass says so), and marks lie between them.
   long long roundsAPass = 1;
+  bool stopsInPass = false;
   double unitsPerRound = 1;
   std::string unit;
   // Ascending, in rounds or, where the plan is a time, in seconds; atMark is called once for each that

@@ -41,7 +41,7 @@ class PathSampler final : public PixelSampler {
       const PrimitiveId id = nextPrimitive(scene, ray, length == 1, time);
       const bool counts = length >= options_.minDepth;
       if (!id.valid()) {
-        if (counts && scene.environment >= 0)
+        if (counts && scene.hasEnvironment())
           radiance += finiteOrCounted(
               hitEnvironment<float>(scene, ray, length + 1, kUnidirectional), tally);
         return radiance;

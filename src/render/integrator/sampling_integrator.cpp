@@ -13,8 +13,9 @@
 namespace h2mc {
 namespace {
 
-// Most samples of a round: a tenth of a second's work of one core, and some MB of splats.
-constexpr long long kMostARound = 1 << 18;
+// Most samples of a round, which is the shortest time that a render can take: 30 ms to 2 s of one core, by the scene
+// and the integrator.
+constexpr long long kMostARound = 1 << 16;
 
 // A uniform position in pixel number `pixel` of a row or column of `size`, in [0, 1).
 float positionIn(int pixel, int size, Random& random) {
@@ -32,10 +33,9 @@ struct Offset {
   int x, y;
 };
 
-// Where in squares of side x side pixels, a power of 2, the index-th pixel is, so that those up to any index are
-// spread evenly (the order of ordered dithering), all shifted by the seed.
-Offset inSquare(int index, int side, std::uint64_t seed) {
-  const std::uint64_t shift = mixBits(seed);
+// Where in a square of side x side pixels, a power of 2, the index-th pixel is, so that those up to any index are
+// spread evenly (the order of ordered dithering), all shifted.
+Offset inSquare(int index, int side, std::uint64_t shift) {
   auto x = static_cast<int>(shift % at(side)), y = static_cast<int>((shift >> 32) % at(side));
   for (int step = side / 2; step > 0; step /= 2, index /= 4) {
     const int quarter = index & 3;  // (0, 0), (1, 1), (1, 0), (0, 1)
@@ -116,14 +116,18 @@ void SampledFilm::sample(int index, long long round, std::uint64_t seed, int hal
   Group& group = groups_[at(index)];
   SampleTally& tally = group.tally[half];
   const int width = scene_.film.width, height = scene_.film.height;
-  const auto [offsetX, offsetY] = inSquare(static_cast<int>(round % roundsAPass()), side_, seed);
+  const int inPass = static_cast<int>(round % roundsAPass());
   const auto pass = static_cast<std::uint64_t>(round / roundsAPass());
-  const long long columns = (width - offsetX + side_ - 1) / side_;
-  const long long pixels = columns * ((height - offsetY + side_ - 1) / side_);
+  // Of each square its own pixel, drawn anew in each pass: all pixels are as likely after any round.
+  const std::uint64_t shifts = mixBits(mixBits(seed) + pass);
+  const long long columns = (width + side_ - 1) / side_;
+  const long long squares = columns * ((height + side_ - 1) / side_);
   const auto count = static_cast<long long>(groups_.size());
-  for (long long i = index * pixels / count; i < (index + 1) * pixels / count; ++i) {
-    const int x = offsetX + side_ * static_cast<int>(i % columns);
-    const int y = offsetY + side_ * static_cast<int>(i / columns);
+  for (long long i = index * squares / count; i < (index + 1) * squares / count; ++i) {
+    const Offset offset = inSquare(inPass, side_, mixBits(shifts ^ static_cast<std::uint64_t>(i)));
+    const int x = offset.x + side_ * static_cast<int>(i % columns);
+    const int y = offset.y + side_ * static_cast<int>(i / columns);
+    if (x >= width || y >= height) continue;
     const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width) +
                        static_cast<std::uint64_t>(x);
     Random random(seed, pixel, pass);
@@ -144,6 +148,7 @@ RoundsResult SampledFilm::add(const RenderRequest& request, const RenderClock& c
                               RoundsPlan plan, int half) {
   const int bands = bandCount(request.threads, film_.height());
   plan.roundsAPass = roundsAPass();
+  plan.stopsInPass = true;
   std::vector<FilmPart> parts;
   for (Group& group : groups_) parts.push_back({&group.splats, half});
   plan.endOfRound = [&] { addInOrder<double>(parts, request.threads, film_); };

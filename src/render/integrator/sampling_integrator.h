@@ -36,9 +36,9 @@ class PixelSampler {
 };
 using MakeSampler = std::function<std::unique_ptr<PixelSampler>()>;
 
-// A film and the samples on it: in each pass one for every pixel, or in a first pass that was cut short one
-// for some of them, spread evenly, which are those that the seed picks: every pixel is as likely to have
-// one. Memory: a film, and 24 bytes for each splat of the 260,000 samples that a round has at most.
+// A film and the samples on it: in each pass one for every pixel, or in one that was cut short one for some of them,
+// spread evenly, which are drawn by the seed: every pixel is as likely to have one. Memory: a
+// film, and 24 bytes for each splat of the 65,000 samples that a round has at most.
 class SampledFilm {
  public:
   // Keeps a reference to the scene. `step`: as BasicFilm's.
@@ -66,7 +66,7 @@ class SampledFilm {
   void sample(int group, long long round, std::uint64_t seed, int half);
 
   const Scene& scene_;
-  int side_;  // a round has every side-th pixel of every side-th row
+  int side_;  // a round has one pixel of each square of side x side
   Film film_;
   std::vector<Group> groups_;
 };
