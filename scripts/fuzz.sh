@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # scripts/fuzz.sh [SECONDS [TARGET...]]: builds the programs of tests/fuzz with libFuzzer and sanitizers and gives each
 # (or those named: xml, obj, ply, serialized, image, path_text, checkpoint) so many seconds (default 60), one a core at
-# a time. What leads to new code is kept in build/fuzz/corpus and begun from the next time. Exit code 1 on a finding; its
-# input is kept in build/fuzz/findings, and is tried again by: build/fuzz/tests/fuzz/h2mc_fuzz_TARGET FILE
+# a time. What leads to new code is kept in build/fuzz/corpus and begun from the next time. Exit code 1 on a finding;
+# its input is kept in build/fuzz/findings, and is tried again by: build/fuzz/tests/fuzz/h2mc_fuzz_TARGET FILE
 set -uo pipefail
 root=$(cd -P -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." >/dev/null && pwd)
 source "$root/scripts/lib.sh"

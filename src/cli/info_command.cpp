@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <map>
 #include <memory>
+#include <set>
 
 #include "cli/commands.h"
 #include "cli/statistics_table.h"
@@ -51,15 +52,19 @@ std::string text(const std::map<std::string, long long>& counts) {
 void printGeometry(const Scene& scene) {
   std::map<std::string, long long> kinds;
   long long triangles = 0, vertices = 0;
+  std::set<const SharedMesh*> meshes;
   for (const Shape& shape : scene.shapes) {
     ++kinds[kindOf(shape)];
-    if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
-      triangles += static_cast<long long>(mesh->triangles.size());
+    // What instances share is there once.
+    const SharedMesh* const shared = shape.sharedMesh();
+    if (shared && !meshes.insert(shared).second) continue;
+    triangles += static_cast<long long>(shape.triangles().size());
+    if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry))
       vertices += static_cast<long long>(mesh->positions.size());
-    } else if (const auto* moving = std::get_if<MovingMesh>(&shape.geometry)) {
-      triangles += static_cast<long long>(moving->triangles.size());
+    else if (const auto* moving = std::get_if<MovingMesh>(&shape.geometry))
       vertices += static_cast<long long>(moving->vertices());
-    }
+    else if (shared)
+      vertices += static_cast<long long>(shared->mesh.positions.size());
   }
   line("shapes", fmt::format("{} ({})", withSeparators(static_cast<long long>(scene.shapes.size())),
                              text(kinds)));

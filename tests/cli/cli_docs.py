@@ -58,6 +58,20 @@ def help_of(*command):
 
 
 class Pages(_h2mc.Test):
+    def test_mitsuba_s_plugins(self):
+        """The page says of each plugin what the program says of it."""
+        listed = set(re.findall(r"(?m)^### (\S+)", self.succeeds("list", "--markdown").stdout))
+        seen = 0
+        for line in read(os.path.join(ROOT, "docs", "mitsuba.md")).splitlines():
+            cells = [cell.strip() for cell in line.strip("|").split("|")]
+            if len(cells) != 3 or not cells[0].startswith("`") or re.search("film|perspective|box|<rgb>", cells[0]):
+                continue
+            for name in re.findall(r"`([a-z_]+)`", cells[0]):
+                if re.match("yes|no", cells[2]):
+                    seen += 1
+                    self.assertEqual(name in listed, cells[2].startswith("yes"), line)
+        self.assertGreater(seen, 60)
+
     def test_links_lead_somewhere(self):
         broken, count = [], 0
         for page in PAGES:

@@ -26,6 +26,10 @@ TEST_P(References, SlowAgree) {
   Reference reference;
   if (!readReference(large ? c.scene : c.folder + "/" + c.scene, edge, reference))
     GTEST_SKIP() << "the published references are not there: see H2MC_DATA_DIR";
+  // The independent renderer reckons the sun's solid angle in float: 1 - cos(0.2679 degrees) is 183 of 2^-24 there
+  // instead of 183.4.
+  if (c.scene == "sun")
+    for (double& mean : reference.mean) mean /= 0.997842;
   const std::string file = data + "/" + (large ? c.scene : c.folder) + "/" + c.scene + ".xml";
   const Scene scene = readTestScene(file, reference.width, reference.height);
   auto options = c.options;
@@ -74,7 +78,7 @@ std::vector<Case> cases() {
   for (const char* scene :
        {"texture_uv", "roughness_texture", "thindielectric", "blendbsdf", "mixturebsdf", "bumpmap",
         "bumpmap_roughconductor", "normalmap", "cylinder", "roughdiffuse", "difftrans", "ward",
-        "roughconductor_phong", "spot_texture", "obj_groups"}) {
+        "roughconductor_phong", "spot_texture", "obj_groups", "sky", "sun", "sunsky", "instance"}) {
     const std::string name = scene;
     list.push_back({name,
                     "path",

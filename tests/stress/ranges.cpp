@@ -90,13 +90,13 @@ TEST(Lengths, To32Edges) {
   expectSound(sceneOf(folder, text), "32 edges", {.resolved = false}, settings);
 }
 
-class Borders : public ::testing::TestWithParam<Placement> {};
+class Borders : public ::testing::TestWithParam<CoordinatePlacement> {};
 
 TEST_P(Borders, OfTheUnitCube) {
   const testing::SceneFolder folder;
   StressSettings settings = quickStress();
   settings.placement = GetParam();
-  const std::string name = GetParam() == Placement::kZero ? "u = 0" : "u = 1 - 2^-24";
+  const std::string name = GetParam() == CoordinatePlacement::kZero ? "u = 0" : "u = 1 - 2^-24";
   expectSound(sceneOf(folder, mixedScene()), name, {}, settings);
   for (const char* bsdf :
        {"<bsdf type=\"phong\"/>", "<bsdf type=\"plastic\"/>", "<bsdf type=\"roughdielectric\"/>",
@@ -116,9 +116,11 @@ TEST_P(Borders, OfTheUnitCube) {
   expectSound(sceneOf(folder, others), name, {}, settings);
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, Borders, ::testing::Values(Placement::kZero, Placement::kBelowOne),
+INSTANTIATE_TEST_SUITE_P(Both, Borders,
+                         ::testing::Values(CoordinatePlacement::kZero,
+                                           CoordinatePlacement::kBelowOne),
                          [](const auto& info) {
-                           return info.param == Placement::kZero ? "Zero" : "BelowOne";
+                           return info.param == CoordinatePlacement::kZero ? "Zero" : "BelowOne";
                          });
 
 }  // namespace

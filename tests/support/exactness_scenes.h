@@ -60,7 +60,8 @@ inline std::string glassScene() {
 </scene>)";
 }
 
-// An environment map, a half-transparent mask, a spot light, a blend, and a surface with bumps.
+// An environment map with a sun before it, an instance of a half-transparent mask, a spot light, a blend, and a surface
+// with bumps.
 inline std::string skyScene() {
   const std::string sky = std::string(H2MC_SOURCE_DIR) + "/scenes/torus/sky.hdr";
   return R"(<scene version="0.6.0"><integrator type="path"/>
@@ -81,10 +82,13 @@ inline std::string skyScene() {
       <bsdf type="phong"><rgb name="specularReflectance" value="0.5"/>
         <rgb name="diffuseReflectance" value="0.3, 0.2, 0.2"/><float name="exponent" value="15"/></bsdf></bsdf>
     </bsdf></shape>
-<shape type="rectangle"><transform name="toWorld"><scale value="0.6"/><rotate y="1" angle="-30"/>
-    <translate x="0.6" y="0.6" z="0.5"/></transform>
+<shape type="shapegroup" id="card"><shape type="rectangle">
   <bsdf type="mask"><rgb name="opacity" value="0.6"/><bsdf type="twosided"><bsdf type="diffuse">
-    <rgb name="reflectance" value="0.3, 0.5, 0.2"/></bsdf></bsdf></bsdf></shape>
+    <rgb name="reflectance" value="0.3, 0.5, 0.2"/></bsdf></bsdf></bsdf></shape></shape>
+<shape type="instance"><ref id="card"/><transform name="toWorld"><scale x="0.7" y="0.5" z="3"/>
+    <rotate y="1" angle="-30"/><translate x="0.6" y="0.6" z="0.5"/></transform></shape>
+<emitter type="sun"><vector name="sunDirection" x="-0.5" y="0.7" z="0.6"/><float name="sunRadiusScale" value="40"/>
+  <float name="scale" value="1.5"/></emitter>
 <emitter type="spot"><transform name="toWorld"><lookat origin="1.5, 2.5, 1.5" target="0, 0, 0" up="0, 1, 0"/>
     </transform>
   <rgb name="intensity" value="8, 8, 7"/><float name="cutoffAngle" value="30"/></emitter>

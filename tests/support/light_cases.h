@@ -77,6 +77,9 @@ inline std::vector<LightCase> infiniteCases() {
   Image uniform(1, 1);
   uniform.at(0, 0) = Rgbf(0.5f);
   cases.push_back({"one pixel", EnvmapLight(uniform, 1, glm::mat3(1)), {}});
+  const glm::dvec3 towards = glm::normalize(glm::dvec3(-0.3, 0.8, 0.4));
+  cases.push_back({"sun", SunLight(towards, 0.3, Rgbf(3, 2, 1)), {}});
+  cases.push_back({"half the sky", SunLight(towards, 1.57, Rgbf(1, 2, 3)), {}});
   return cases;
 }
 

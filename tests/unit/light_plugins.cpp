@@ -30,7 +30,7 @@ class TableProperties : public Properties {
     return values_.contains(name);
   }
   bool boolean(std::string_view) const override { return false; }
-  int integer(std::string_view) const override { return 0; }
+  int integer(std::string_view name) const override { return static_cast<int>(number(name)); }
   float number(std::string_view name) const override {
     if (given(name)) return std::get<float>(values_.find(name)->second);
     return std::stof(std::string(fallback(name)));
@@ -182,7 +182,8 @@ TEST(LightPlugins, Envmap) {
 
 // Every table says what create() asks for.
 TEST(LightPlugins, TablesAreComplete) {
-  EXPECT_EQ(lightPlugins().size(), std::variant_size_v<Light>);
+  // "sky" and "sunsky" make an envmap.
+  EXPECT_EQ(lightPlugins().size(), std::variant_size_v<Light> + 2);
   for (const Plugin<Light>& plugin : lightPlugins()) {
     EXPECT_FALSE(plugin.description.empty());
     for (const Parameter& p : plugin.parameters) EXPECT_FALSE(p.description.empty()) << p.name;

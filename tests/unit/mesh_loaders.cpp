@@ -159,6 +159,25 @@ TEST(MeshPly, BinaryOfBothByteOrdersAndPrecisions) {
   }
 }
 
+// Two strips in one list: a square, and a triangle by itself. All wind the same way.
+TEST(MeshPly, TriangleStrips) {
+  const MeshData m =
+      ply("ply\nformat ascii 1.0\nelement vertex 7\n" + kXyz +
+          "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+          "0 0 0\n1 0 0\n0 1 0\n1 1 0\n4 0 0\n5 0 0\n4 1 0\n9 0 1 2 3 -1 4 5 6 -1\n");
+  ASSERT_EQ(m.triangles.size(), 3u);
+  for (const glm::uvec3& t : m.triangles) {
+    const Vec3f n = cross(m.positions[t.y] - m.positions[t.x], m.positions[t.z] - m.positions[t.x]);
+    EXPECT_EQ(n, Vec3f(0, 0, 1));
+  }
+  EXPECT_EQ(m.triangles[1], glm::uvec3(2, 1, 3));
+  EXPECT_TRUE(
+      contains(plyError("ply\nformat ascii 1.0\nelement vertex 3\n" + kXyz +
+                        "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+                        "0 0 0\n1 0 0\n0 1 0\n3 0 1 -2\n"),
+               "strip 0 has a bad vertex"));
+}
+
 TEST(MeshPly, Mistakes) {
   const std::string square = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
   EXPECT_TRUE(contains(plyError("plyx\n"), "not a PLY file"));

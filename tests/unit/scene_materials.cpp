@@ -28,6 +28,22 @@ constexpr const char* kRed =
     R"(<bsdf type="diffuse"><rgb name="reflectance" value="1, 0, 0"/></bsdf>)";
 constexpr const char* kMetal = R"(<bsdf type="roughconductor"/>)";
 
+TEST_F(SceneMaterials, NullLetsEverythingThrough) {
+  Scene scene;
+  const Material m = material(R"(<bsdf type="null"/>)", scene);
+  for (const Vec3f& wi : {Vec3f(0, 0, 1), Vec3f(0.6f, 0, -0.8f)}) {
+    EXPECT_EQ(evaluateMaterial<float>(scene.bsdfs, m, Vec2f(0.5f), wi, Vec3f(0, 0.6f, 0.8f)).pdf,
+              0);
+    for (const float choice : {0.f, 0.5f, 0.999f}) {
+      const LobeId lobe = chooseLobe(scene.bsdfs, m, Vec2f(0.5f), wi, 0.3f, 0.6f, choice);
+      ASSERT_TRUE(lobe.null);
+      const auto sample = sampleDelta<float>(scene.bsdfs, m, Vec2f(0.5f), wi, lobe);
+      EXPECT_EQ(sample.wo, -wi);
+      EXPECT_EQ(sample.radiance, Rgbf(1));
+    }
+  }
+}
+
 TEST_F(SceneMaterials, BlendsHaveTheirWeight) {
   Scene scene;
   const Material m = material(R"(<bsdf type="blendbsdf"><float name="weight" value="0.25"/>)" +

@@ -56,7 +56,8 @@ PathTraits traitsOf(const Scene& scene, const Path& path) {
   // With s = 0 the last vertex is the light itself, or nothing.
   traits.bsdfs =
       bsdfBits(scene, path.camera, s == 0 ? t - 2 : t - 1) | bsdfBits(scene, path.light, s - 1);
-  const int light = s == 0 && path.escaped ? scene.environment : path.lightIndex;
+  const int light =
+      s == 0 && path.escaped ? scene.environmentAt(path.lastRay.direction) : path.lightIndex;
   if (light >= 0) traits.light = static_cast<int>(scene.lights[at(light)].index());
   traits.moving = path.moving;
   return traits;

@@ -123,9 +123,10 @@ StressFindings stressScene(const Scene& scene, const StressSettings& settings) {
   notFinite(inSamples.count, inSamples.first);
   notFinite(inChains.notFinite.count, inChains.notFinite.first);
   result.chains = inChains.derivatives;
-  const bool drawn = settings.placement == Placement::kDrawn;
+  const bool drawn = settings.placement == CoordinatePlacement::kDrawn;
   if (!drawn)
-    paths = atBorder(paths, settings.placement == Placement::kZero ? 0.f : kBelowOne, scene.moving);
+    paths = atBorder(paths, settings.placement == CoordinatePlacement::kZero ? 0.f : kBelowOne,
+                     scene.moving);
 
   std::vector<PathFinding> findings(paths.size());
   parallelFor(settings.threads, (static_cast<int>(paths.size()) + kBlock - 1) / kBlock, [&](int b) {

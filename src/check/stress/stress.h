@@ -16,7 +16,7 @@
 namespace h2mc {
 
 // Where the coordinates of the paths are.
-enum class Placement {
+enum class CoordinatePlacement {
   kDrawn,
   kZero,     // each coordinate of a sampled path in turn, and all together, at 0
   kBelowOne  // at 1 - 2^-24
@@ -28,7 +28,7 @@ struct StressSettings {
   long long samples = 200000;  // for the pictures, see PictureSettings; 0: none are made
   std::uint64_t seed = 0;
   int threads = 0;  // 0: one a core
-  Placement placement = Placement::kDrawn;
+  CoordinatePlacement placement = CoordinatePlacement::kDrawn;
   const std::atomic<bool>* stop = nullptr;
 };
 

@@ -40,13 +40,16 @@ std::vector<Variation> makeList() {
     add("radiance", factor, fmt::format("lights {} times as bright", factor),
         [f = std::stod(factor)](SceneDocument& d) { return scaleRadiance(d, f); });
   list.push_back({"length=32", "paths of up to 32 edges", {}, kMaxPathLength});
-  list.push_back(
-      {"u=0", "primary coordinates at 0, one by one and together", {}, 0, Placement::kZero});
+  list.push_back({"u=0",
+                  "primary coordinates at 0, one by one and together",
+                  {},
+                  0,
+                  CoordinatePlacement::kZero});
   list.push_back({"u=1",
                   "primary coordinates at 1 - 2^-24, one by one and together",
                   {},
                   0,
-                  Placement::kBelowOne});
+                  CoordinatePlacement::kBelowOne});
   return list;
 }
 

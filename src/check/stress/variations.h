@@ -19,7 +19,7 @@ struct Variation {
   // Changes the document and returns how many elements it has changed; empty: it stays.
   std::function<int(SceneDocument&)> change;
   int maxLength = 0;  // 0: as asked for
-  Placement placement = Placement::kDrawn;
+  CoordinatePlacement placement = CoordinatePlacement::kDrawn;
 };
 
 // Those there are. A further one is a line in the list behind this.

@@ -373,6 +373,7 @@ constexpr BsdfPlugin kPlugins[] = {
     {"roughdiffuse", "Rough diffuse reflection [Oren and Nayar 1994]", kRoughDiffuseParameters,
      createRoughDiffuse},
     {"ward", "Anisotropic gloss over a diffuse base [Ward 1992]", kWardParameters, createWard},
+    {"null", "Nothing: light goes straight on", {}, nullptr},
     {"twosided", "The nested BSDF on both sides, or one each for front and back", {}, nullptr, 2},
     {"mask", "The nested BSDF with holes", kMaskParameters, nullptr, 1},
     {"bumpmap", "The nested BSDF on a surface with a height", kBumpParameters, nullptr, 1},

@@ -199,8 +199,8 @@ class PlyReader {
       readVertices(element);
     } else if (element.name == "face") {
       readFaces(element);
-    } else if (element.name == "tristrips" && element.count > 0) {
-      fail("triangle strips are not supported, expected faces");
+    } else if (element.name == "tristrips") {
+      readStrips(element);
     } else {
       for (std::size_t i = 0; i < element.count; ++i)
         for (const Property& p : element.properties) skip(p);
@@ -265,16 +265,46 @@ class PlyReader {
         if (corners < 3) fail("face " + std::to_string(i) + " has fewer than 3 corners");
         unsigned first = 0, previous = 0;
         for (std::size_t c = 0; c < corners; ++c) {
-          const double index = number(p.type);
-          if (!(index >= 0 && index < 4294967295.0))
-            fail("face " + std::to_string(i) + " has a bad vertex");
-          const auto v = static_cast<unsigned>(index);
+          const unsigned v = vertexOf(number(p.type), "face", i);
           if (c == 0) first = v;
           if (c >= 2) mesh_.triangles.emplace_back(first, previous, v);
           previous = v;
         }
       }
     }
+  }
+
+  // Each corner makes a triangle with the two before it, every other one turned round; -1 begins anew.
+  void readStrips(const Element& element) {
+    for (std::size_t i = 0; i < element.count; ++i)
+      for (const Property& p : element.properties) {
+        if (!p.list || (p.name != "vertex_indices" && p.name != "vertex_index")) {
+          skip(p);
+          continue;
+        }
+        const std::size_t corners = listCount(p);
+        unsigned a = 0, b = 0;
+        std::size_t inStrip = 0;
+        for (std::size_t c = 0; c < corners; ++c) {
+          const double index = number(p.type);
+          if (index == -1) {
+            inStrip = 0;
+            continue;
+          }
+          const unsigned v = vertexOf(index, "strip", i);
+          if (inStrip >= 2)
+            mesh_.triangles.push_back(inStrip % 2 ? glm::uvec3(b, a, v) : glm::uvec3(a, b, v));
+          a = b;
+          b = v;
+          ++inStrip;
+        }
+      }
+  }
+
+  unsigned vertexOf(double index, const std::string& what, std::size_t i) const {
+    if (!(index >= 0 && index < 4294967295.0))
+      fail(what + " " + std::to_string(i) + " has a bad vertex");
+    return static_cast<unsigned>(index);
   }
 
   std::string path_;

@@ -13,6 +13,8 @@ namespace {
 constexpr float kTriangleOffset = 0x1p-22f;
 // The same relative to the shape's largest coordinate, for origins at (0, 0, 0).
 constexpr float kLeastOffset = 0x1p-36f;
+// And to an instance's, times its transform's condition.
+constexpr float kInstanceOffset = 0x1p-22f;
 // Triangles this many times longer than those that the finest shape is made of are vast: else their offset would be
 // seen there, a thousandth of a triangle or more.
 constexpr float kVast = 0x1p12f;
@@ -26,6 +28,7 @@ struct Extent {
   float coordinate = 0;        // largest
   std::vector<float> longest;  // edge of each triangle; for other shapes, one diameter
   std::vector<bool> tilted;    // triangles: Embree's arithmetic across them is not exact
+  float condition = 0;         // of an instance's transform
 };
 
 void addSphere(const Sphere& sphere, Extent& extent) {
@@ -63,7 +66,34 @@ void addTriangles(const std::vector<glm::uvec3>& triangles, const Vec3f* positio
   }
 }
 
+// Of an instance: as if its box were one triangle for each kind of length. Embree takes rays into the mesh's space in
+// float, where a transform that stretches loses more of their digits.
+Extent extentOf(const SharedMesh& shared, std::span<const Placement> placements) {
+  Extent extent;
+  extent.longest = {0, 0};
+  extent.tilted = {true, true};
+  for (const Placement& placement : placements) {
+    const glm::dmat3 m(placement.toWorld()), inverse = glm::inverse(m);
+    double stretch = 0, shrink = 0;
+    for (int i = 0; i < 3; ++i) {
+      stretch = std::max(stretch, glm::length(m[i]));
+      shrink = std::max(shrink, glm::length(inverse[i]));
+    }
+    for (const Vec3f& corner : {shared.low, shared.high})
+      extent.coordinate = std::max(extent.coordinate,
+                                   largestCoordinate(Vec3f(placement.point(glm::dvec3(corner)))));
+    extent.longest[0] =
+        std::max(extent.longest[0], shared.medianEdge * static_cast<float>(stretch));
+    extent.longest[1] =
+        std::max(extent.longest[1], shared.longestEdge * static_cast<float>(stretch));
+    extent.condition = std::max(extent.condition, static_cast<float>(stretch * shrink));
+  }
+  return extent;
+}
+
 Extent extentOf(const Shape& shape) {
+  if (const SharedMesh* const shared = shape.sharedMesh())
+    return extentOf(*shared, shape.placements());
   Extent extent;
   const auto reserve = [&](std::size_t count) {
     extent.longest.resize(count, 0);
@@ -115,12 +145,14 @@ RayOffset::RayOffset(std::span<const Shape> shapes) : vast_(shapes.size()) {
     float longest = 0;
     for (std::size_t i = 0; shapes[s].isMesh() && i < extent.longest.size(); ++i) {
       if (!extent.tilted[i]) continue;
-      if (extent.longest[i] > kVast * finest)
+      if (extent.longest[i] > kVast * finest && !shapes[s].isInstance())
         vast_[s].push_back(static_cast<std::uint32_t>(i));
       else
         longest = std::max(longest, extent.longest[i]);
     }
-    slack_.push_back(longest * kTriangleOffset + extent.coordinate * kLeastOffset);
+    slack_.push_back(longest * kTriangleOffset +
+                     extent.coordinate *
+                         std::max(kLeastOffset, extent.condition * kInstanceOffset));
   }
   slack_.push_back(slack_.empty() ? 0 : *std::max_element(slack_.begin(), slack_.end()));
 }

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <deque>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -192,6 +193,7 @@ void vastOccluded(const RTCOccludedFunctionNArguments* arguments) {
 struct RayTracer::Impl {
   explicit Impl(std::span<const Shape> s) : shapes(s), offset(s) {}
   ~Impl() {
+    for (const auto& [mesh, shared] : meshes) rtcReleaseScene(shared);
     if (scene) rtcReleaseScene(scene);
     if (device) rtcReleaseDevice(device);
   }
@@ -199,6 +201,11 @@ struct RayTracer::Impl {
   void attach(std::size_t index);
   void attachMesh(std::size_t index);
   void attachVast(std::size_t index);
+  void attachInstance(std::size_t index);
+  RTCScene newScene() const;
+  // A geometry of triangles, their vertices at `steps` moments one after another.
+  RTCGeometry triangles(std::span<const glm::uvec3> indices, const std::vector<Vec3f>& positions,
+                        unsigned steps) const;
   // Commits it and gives it up to the scene.
   void add(RTCGeometry geometry, std::size_t id);
 
@@ -207,7 +214,15 @@ struct RayTracer::Impl {
   std::span<const Shape> shapes;
   RayOffset offset;
   std::deque<VastTriangles> vast;  // geometries shapes.size() and on
+  std::map<const SharedMesh*, RTCScene> meshes;
 };
+
+RTCScene RayTracer::Impl::newScene() const {
+  const RTCScene made = rtcNewScene(device);
+  rtcSetSceneFlags(made, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(made, RTC_BUILD_QUALITY_HIGH);
+  return made;
+}
 
 void RayTracer::Impl::add(RTCGeometry geometry, std::size_t id) {
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
@@ -224,8 +239,14 @@ void RayTracer::Impl::attachMesh(std::size_t index) {
   if (triangles.size() == offset.vast(index).size()) return;
   // Points, which no ray meets.
   for (const std::uint32_t i : offset.vast(index)) triangles[i] = glm::uvec3(triangles[i].x);
+  add(this->triangles(triangles, mesh ? mesh->positions : moving->positions,
+                      static_cast<unsigned>(shape.motionSegments() + 1)),
+      index);
+}
+
+RTCGeometry RayTracer::Impl::triangles(std::span<const glm::uvec3> indices,
+                                       const std::vector<Vec3f>& positions, unsigned steps) const {
   const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  const auto steps = static_cast<unsigned>(shape.motionSegments() + 1);
   rtcSetGeometryTimeStepCount(geometry, steps);
   // Copies: Embree reads a few bytes beyond the last vertex.
   const auto copy = [&](RTCBufferType type, unsigned slot, RTCFormat format, const auto& from,
@@ -233,12 +254,35 @@ void RayTracer::Impl::attachMesh(std::size_t index) {
     void* to = rtcSetNewGeometryBuffer(geometry, type, slot, format, sizeof(from[0]), count);
     if (to) std::memcpy(to, from.data() + first, count * sizeof(from[0]));
   };
-  const auto& positions = mesh ? mesh->positions : moving->positions;
   const std::size_t vertices = positions.size() / steps;
   for (unsigned k = 0; k < steps; ++k)
     copy(RTC_BUFFER_TYPE_VERTEX, k, RTC_FORMAT_FLOAT3, positions, k * vertices, vertices);
-  copy(RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles, 0, triangles.size());
-  add(geometry, index);
+  copy(RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices, 0, indices.size());
+  return geometry;
+}
+
+// The mesh is a scene of its own, once for all its instances.
+void RayTracer::Impl::attachInstance(std::size_t index) {
+  const SharedMesh* const shared = shapes[index].sharedMesh();
+  RTCScene& inner = meshes[shared];
+  if (!inner) {
+    inner = newScene();
+    const RTCGeometry geometry = triangles(shared->mesh.triangles, shared->mesh.positions, 1);
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(inner, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(inner);
+  }
+  const std::span<const Placement> steps = shapes[index].placements();
+  const RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(instance, inner);
+  rtcSetGeometryTimeStepCount(instance, static_cast<unsigned>(steps.size()));
+  for (unsigned k = 0; k < steps.size(); ++k) {
+    const Mat4 toWorld(steps[k].toWorld());
+    rtcSetGeometryTransform(instance, k, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &toWorld[0][0]);
+  }
+  add(instance, index);
 }
 
 void RayTracer::Impl::attachVast(std::size_t index) {
@@ -257,6 +301,10 @@ void RayTracer::Impl::attachVast(std::size_t index) {
 
 void RayTracer::Impl::attach(std::size_t index) {
   const Shape& shape = shapes[index];
+  if (shape.isInstance()) {
+    attachInstance(index);
+    return;
+  }
   if (shape.isMesh()) {
     attachMesh(index);
     attachVast(index);
@@ -278,9 +326,7 @@ RayTracer::RayTracer(std::span<const Shape> shapes) : impl_(std::make_unique<Imp
   const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
   impl_->device = rtcNewDevice(nullptr);
   checkDevice(impl_->device);
-  impl_->scene = rtcNewScene(impl_->device);
-  rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_HIGH);
+  impl_->scene = impl_->newScene();
   for (std::size_t i = 0; i < shapes.size(); ++i) impl_->attach(i);
   rtcCommitScene(impl_->scene);
   checkDevice(impl_->device);
@@ -296,10 +342,12 @@ PrimitiveId RayTracer::intersect(const RayEnd& from, const Vec3f& direction, flo
   hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   if (!intersect1(impl_->scene, hit)) return {};
-  if (const std::size_t shapes = impl_->shapes.size(); hit.hit.geomID >= shapes) {
+  if (const std::size_t shapes = impl_->shapes.size();
+      hit.hit.instID[0] == RTC_INVALID_GEOMETRY_ID && hit.hit.geomID >= shapes) {
     const VastTriangles& vast = impl_->vast[hit.hit.geomID - shapes];
     return {vast.index, vast.triangles[hit.hit.primID]};
   }
+  if (hit.hit.instID[0] != RTC_INVALID_GEOMETRY_ID) return {hit.hit.instID[0], hit.hit.primID};
   const bool mesh = impl_->shapes[hit.hit.geomID].isMesh();
   return {hit.hit.geomID, mesh ? hit.hit.primID : static_cast<std::uint32_t>(hit.hit.u)};
 }

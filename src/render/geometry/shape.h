@@ -2,6 +2,8 @@
 // Shapes in world space. Transforms are applied when the scene is read.
 #pragma once
 
+#include <memory>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -69,8 +71,53 @@ struct MovingCylinder {
   std::vector<Cylinder> steps;  // at least 2
 };
 
+// A mesh that several shapes share, in a space of its own.
+struct SharedMesh {
+  TriangleMesh mesh;  // never a parallelogram
+  // Of all of it, where an instance is asked for what would take long to find by its vertices.
+  Vec3f low{0}, high{0};
+  float longestEdge = 0, medianEdge = 0;
+
+  explicit SharedMesh(TriangleMesh triangles);
+};
+
+// Where an instance puts its mesh.
+class Placement {
+ public:
+  // Precondition: can be inverted.
+  explicit Placement(const Mat4& toWorld)
+      : toWorld_(toWorld),
+        normalToWorld_(glm::transpose(glm::inverse(glm::dmat3(toWorld_)))),
+        mirrors_(glm::determinant(glm::dmat3(toWorld_)) < 0) {}
+
+  glm::dvec3 point(const glm::dvec3& p) const { return glm::dvec3(toWorld_ * glm::dvec4(p, 1)); }
+  // Of unit length.
+  glm::dvec3 normal(const Vec3f& n) const {
+    const glm::dvec3 placed = normalToWorld_ * glm::dvec3(n);
+    const double length = glm::length(placed);
+    return length > 0 ? placed / length : placed;
+  }
+  bool mirrors() const { return mirrors_; }
+  const glm::dmat4& toWorld() const { return toWorld_; }
+
+ private:
+  glm::dmat4 toWorld_;
+  glm::dmat3 normalToWorld_;
+  bool mirrors_;
+};
+
+struct MeshInstance {
+  std::shared_ptr<const SharedMesh> shared;
+  Placement placement;
+};
+
+struct MovingMeshInstance {
+  std::shared_ptr<const SharedMesh> shared;
+  std::vector<Placement> steps;  // at least 2; all mirror, or none
+};
+
 using Geometry = std::variant<TriangleMesh, Sphere, Disk, Cylinder, MovingMesh, MovingSphere,
-                              MovingDisk, MovingCylinder>;
+                              MovingDisk, MovingCylinder, MovingMeshInstance, MeshInstance>;
 
 struct Shape {
   std::string name;  // id or plugin name with file, for messages
@@ -78,13 +125,24 @@ struct Shape {
   int material = -1;  // index into Scene::materials
   int light = -1;     // index into Scene::lights of the area light on it, or -1
 
-  bool isMesh() const { return geometry.index() == 0 || geometry.index() == 4; }
-  bool moves() const { return geometry.index() >= 4; }
+  // Made of triangles: an instance too.
+  bool isMesh() const {
+    const std::size_t i = geometry.index();
+    return i == 0 || i == 4 || i >= 8;
+  }
+  bool isInstance() const { return geometry.index() >= 8; }
+  bool moves() const { return geometry.index() >= 4 && geometry.index() != 9; }
   // Lines meet it twice: which of the two is a PrimitiveId's `primitive`.
   bool hasTwoRoots() const {
     const std::size_t i = geometry.index();
     return i == 1 || i == 3 || i == 5 || i == 7;
   }
+  // Of a mesh; of anything else none.
+  std::span<const glm::uvec3> triangles() const;
+  bool isParallelogram() const;
+  // Of an instance: its mesh, and where that is, at rest or at the steps of its motion. Else null, and none.
+  const SharedMesh* sharedMesh() const;
+  std::span<const Placement> placements() const;
   // Into how many pieces of equal length the shutter's opening is cut for it; 0 if it does not move.
   int motionSegments() const;
 };

@@ -116,33 +116,19 @@ double meanOverSteps(int segments, F&& f) {
 }
 
 double meshTriangleArea(const Shape& shape, std::uint32_t index) {
-  if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry))
-    return triangleArea(detail::triangleOf(detail::StillMesh<float>{*mesh}, index));
-  const auto& mesh = std::get<MovingMesh>(shape.geometry);
-  return meanOverSteps(mesh.segments, [&](int step) {
-    const float time = static_cast<float>(step) / static_cast<float>(mesh.segments);
-    return triangleArea(detail::triangleOf(detail::MeshAtMoment<float>(mesh, time), index));
+  const int segments = shape.motionSegments();
+  return meanOverSteps(segments, [&](int step) {
+    const float time = segments ? static_cast<float>(step) / static_cast<float>(segments) : 0;
+    return detail::withView<float>(shape, &time, [&](const auto& view) {
+      if constexpr (requires { view.triangle(0); })
+        return triangleArea(detail::triangleOf(view, index));
+      else
+        return 0.0;
+    });
   });
 }
 
-std::uint32_t triangleCount(const Shape& shape) {
-  const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry);
-  return static_cast<std::uint32_t>(mesh ? mesh->triangles.size()
-                                         : std::get<MovingMesh>(shape.geometry).triangles.size());
-}
-
 }  // namespace
-
-int Shape::motionSegments() const {
-  if (const auto* mesh = std::get_if<MovingMesh>(&geometry)) return mesh->segments;
-  if (const auto* sphere = std::get_if<MovingSphere>(&geometry))
-    return static_cast<int>(sphere->steps.size()) - 1;
-  if (const auto* disk = std::get_if<MovingDisk>(&geometry))
-    return static_cast<int>(disk->steps.size()) - 1;
-  if (const auto* cylinder = std::get_if<MovingCylinder>(&geometry))
-    return static_cast<int>(cylinder->steps.size()) - 1;
-  return 0;
-}
 
 bool invertPrimitive(std::span<const Shape> shapes, PrimitiveId id, const Vec3f& p, Vec2f& u,
                      const float* time) {
@@ -154,8 +140,8 @@ bool invertPrimitive(std::span<const Shape> shapes, PrimitiveId id, const Vec3f&
     } else if constexpr (requires { view.axisX; }) {
       return invertDisk(view, p, u);
     } else {
-      return view.mesh.parallelogram ? invertParallelogram(detail::triangleOf(view, 0), p, u)
-                                     : invertTriangle(detail::triangleOf(view, id.primitive), p, u);
+      return view.parallelogram() ? invertParallelogram(detail::triangleOf(view, 0), p, u)
+                                  : invertTriangle(detail::triangleOf(view, id.primitive), p, u);
     }
   });
 }
@@ -163,7 +149,7 @@ bool invertPrimitive(std::span<const Shape> shapes, PrimitiveId id, const Vec3f&
 double totalArea(const Shape& shape) {
   if (shape.isMesh()) {
     double area = 0;
-    for (std::uint32_t i = 0; i < triangleCount(shape); ++i) area += meshTriangleArea(shape, i);
+    for (std::uint32_t i = 0; i < shape.triangles().size(); ++i) area += meshTriangleArea(shape, i);
     return area;
   }
   if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) return sphereArea(*sphere);
@@ -181,10 +167,7 @@ double totalArea(const Shape& shape) {
 
 double primitiveArea(const Shape& shape, std::uint32_t primitive) {
   if (!shape.isMesh()) return totalArea(shape);
-  const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry);
-  const bool whole =
-      mesh ? mesh->parallelogram : std::get<MovingMesh>(shape.geometry).parallelogram;
-  return whole ? totalArea(shape) : meshTriangleArea(shape, primitive);
+  return shape.isParallelogram() ? totalArea(shape) : meshTriangleArea(shape, primitive);
 }
 
 }  // namespace h2mc

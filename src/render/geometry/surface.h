@@ -47,7 +47,7 @@ SurfacePoint<T> sampleView(const View& view, std::uint32_t primitive, const T& u
     return sampleSphere<T>(view, u0, u1);
   else if constexpr (requires { view.axisX; })
     return sampleDisk<T>(view, u0, u1);
-  else if (view.mesh.parallelogram)
+  else if (view.parallelogram())
     return sampleParallelogram<T>(view, u0, u1);
   else
     return sampleTriangle<T>(view, primitive, u0, u1);
@@ -81,7 +81,7 @@ auto areaOfView(const View& view, std::uint32_t primitive) {
     using S = Scalar<P>;
     // A triangle without area has no point to be sampled.
     if (!(value(triangle.inverseArea2) > 0)) return P(S(1e-30));
-    return P(P(S(view.mesh.parallelogram ? 1 : 0.5)) / triangle.inverseArea2);
+    return P(P(S(view.parallelogram() ? 1 : 0.5)) / triangle.inverseArea2);
   }
 }
 
@@ -91,7 +91,7 @@ auto withView(const Shape& shape, const T* time, F&& f) {
   using S = Scalar<T>;
   const Geometry& geometry = shape.geometry;
   if (const auto* mesh = std::get_if<TriangleMesh>(&geometry)) [[likely]]
-    return f(StillMesh<S>{*mesh});
+    return f(StillMesh<S>(*mesh));
   if (const auto* sphere = std::get_if<Sphere>(&geometry)) return f(viewOf<S>(*sphere));
   if (const auto* disk = std::get_if<Disk>(&geometry)) return f(viewOf<S>(*disk));
   if (const auto* mesh = std::get_if<MovingMesh>(&geometry))
@@ -100,6 +100,10 @@ auto withView(const Shape& shape, const T* time, F&& f) {
     return f(viewOf<T>(*sphere, *time));
   if (const auto* disk = std::get_if<MovingDisk>(&geometry)) return f(viewOf<T>(*disk, *time));
   if (const auto* cylinder = std::get_if<Cylinder>(&geometry)) return f(viewOf<S>(*cylinder));
+  if (const auto* instance = std::get_if<MeshInstance>(&geometry))
+    return f(StillMesh<S>(*instance));
+  if (const auto* instance = std::get_if<MovingMeshInstance>(&geometry))
+    return f(MeshAtMoment<T>(*instance, *time));
   return f(viewOf<T>(*std::get_if<MovingCylinder>(&geometry), *time));
 }
 

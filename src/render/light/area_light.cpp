@@ -13,11 +13,7 @@ void AreaLight::prepare(std::span<const Shape> shapes) {
   if (!(area_ >= std::numeric_limits<float>::min())) area_ = std::numeric_limits<float>::min();
   wraps_ = wrapsAround(s);
   moving_ = s.moves();
-  std::size_t count = 0;
-  if (const auto* still = std::get_if<TriangleMesh>(&s.geometry))
-    count = still->parallelogram ? 0 : still->triangles.size();
-  else if (const auto* moving = std::get_if<MovingMesh>(&s.geometry))
-    count = moving->parallelogram ? 0 : moving->triangles.size();
+  const std::size_t count = s.isParallelogram() ? 0 : s.triangles().size();
   if (count == 0) return;
   std::vector<double> areas(count);
   for (std::size_t i = 0; i < areas.size(); ++i)

@@ -40,6 +40,13 @@ EnvmapLight::EnvmapLight(const Image& image, float scale, const glm::mat3& toWor
   data_ = std::move(data);
 }
 
+Vec3f EnvmapLight::directionOf(int x, int y) const {
+  const double phi = 2 * std::numbers::pi * (x + 0.5) / width();
+  const double theta = std::numbers::pi * (y + 0.5) / height();
+  return glm::normalize(toWorld_ * Vec3f(std::sin(phi) * std::sin(theta), std::cos(theta),
+                                         -std::cos(phi) * std::sin(theta)));
+}
+
 Vec2f EnvmapLight::invertDirection(const Vec3f& direction) const {
   const glm::dvec3 d = glm::normalize(glm::dvec3(glm::transpose(toWorld_) * direction));
   const double v = std::atan2(std::hypot(d.x, d.z), d.y) / std::numbers::pi;

@@ -71,6 +71,10 @@ class EnvmapLight {
   unsigned wrapsDirect(const LightContext&) const { return 1; }
   unsigned wrapsEmission(const LightContext&) const { return 2 | 4; }
 
+  const Image& image() const { return data_->image; }  // times the scale
+  const glm::mat3& toWorld() const { return toWorld_; }
+  // Of a pixel's centre: unit, in the world.
+  Vec3f directionOf(int x, int y) const;
   int width() const { return data_->distribution.width(); }
   int height() const { return data_->distribution.height(); }
 

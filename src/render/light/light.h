@@ -13,6 +13,7 @@
 #include "render/light/light_types.h"
 #include "render/light/point_light.h"
 #include "render/light/spot_light.h"
+#include "render/light/sun_light.h"
 #include "render/scene/plugin.h"
 
 namespace h2mc {
@@ -20,8 +21,8 @@ namespace h2mc {
 // What each alternative provides (all const):
 //
 //   bool isDelta();      // no path can hit it: point, spot, directional
-//   bool isInfinite();   // no position: directional, constant, envmap
-//   bool isEnvironment();  // seen by rays that leave the scene: constant, envmap
+//   bool isInfinite();   // no position: directional, constant, envmap, sun
+//   bool isEnvironment();  // seen by rays that leave the scene: constant, envmap, sun
 //   float power(const SceneBounds&);  // luminance of the flux (an estimate is enough), > 0 if it emits
 //
 //   // Light arriving at the point `reference`, sampled with u in [0,1)^2 (technique s = 1).
@@ -54,26 +55,46 @@ namespace h2mc {
 //   // and 1 are the same point: bit i for the i-th.
 //   unsigned wrapsDirect(const LightContext&);
 //   unsigned wrapsEmission(const LightContext&);
-using Light =
-    std::variant<AreaLight, PointLight, SpotLight, DirectionalLight, ConstantLight, EnvmapLight>;
+using Light = std::variant<AreaLight, PointLight, SpotLight, DirectionalLight, ConstantLight,
+                           EnvmapLight, SunLight>;
 
-// sampleDirect and sampleEmission at a moment of the shutter's opening, which only area lights know of.
-// `time` may be null where the light's shape does not move.
+// Whether suns stand before it.
+template <class L>
+inline constexpr bool kBehindSuns =
+    std::is_same_v<L, ConstantLight> || std::is_same_v<L, EnvmapLight>;
+inline bool isBehindSun(const LightContext& context, const Vec3f& toLight) {
+  for (const SkyDisc& sun : context.suns)
+    if (sun.covers(toLight)) return true;
+  return false;
+}
+
+// sampleDirect and sampleEmission in a scene: at a moment of the shutter's opening, which only area lights know of, and
+// nothing from where a sun stands before the light. `time` may be null where the light's shape does not move.
 template <class T, class L>
 DirectLight<T> sampleDirectAt(const L& light, const LightContext& context, PrimitiveId primitive,
                               const Vec3<T>& reference, const T& u0, const T& u1, const T* time) {
-  if constexpr (std::is_same_v<L, AreaLight>)
+  if constexpr (std::is_same_v<L, AreaLight>) {
     return light.template sampleDirect<T>(context, primitive, reference, u0, u1, time);
-  else
-    return light.template sampleDirect<T>(context, primitive, reference, u0, u1);
+  } else {
+    DirectLight<T> r = light.template sampleDirect<T>(context, primitive, reference, u0, u1);
+    if constexpr (kBehindSuns<L>)
+      if (!context.suns.empty() && isBehindSun(context, Vec3f(value3(r.direction)))) [[unlikely]]
+        r.arriving = lift<T>(Vec3<Scalar<T>>(0));
+    return r;
+  }
 }
 template <class T, class L>
 EmittedRay<T> sampleEmissionAt(const L& light, const LightContext& context, PrimitiveId primitive,
                                const T& u0, const T& u1, const T& v0, const T& v1, const T* time) {
-  if constexpr (std::is_same_v<L, AreaLight>)
+  if constexpr (std::is_same_v<L, AreaLight>) {
     return light.template sampleEmission<T>(context, primitive, u0, u1, v0, v1, time);
-  else
-    return light.template sampleEmission<T>(context, primitive, u0, u1, v0, v1);
+  } else {
+    EmittedRay<T> r = light.template sampleEmission<T>(context, primitive, u0, u1, v0, v1);
+    if constexpr (kBehindSuns<L>)
+      if (!context.suns.empty() && isBehindSun(context, -Vec3f(value3(r.direction)))) [[unlikely]]
+        r.flux = lift<T>(Vec3<Scalar<T>>(0));
+    return r;
+  }
 }
 
 // Tells area lights about the shapes they stand on. Call once, when the scene's shapes are in place

@@ -19,10 +19,24 @@ struct SceneBounds {
   float radius = 1;
 };
 
+// A disc infinitely far, such as the sun's.
+struct SkyDisc {
+  Vec3f direction;  // unit, to its centre
+  float height;     // 1 - cos of its angular radius
+
+  // 1 - cos of the angle to the centre, without the cancellation.
+  float heightOf(const Vec3f& toLight) const {
+    const Vec3f d = toLight - direction;
+    return dot(d, d) * 0.5f;
+  }
+  bool covers(const Vec3f& toLight) const { return heightOf(toLight) <= height; }
+};
+
 // What a light may ask of the scene it stands in.
 struct LightContext {
   std::span<const Shape> shapes;
   SceneBounds bounds;
+  std::span<const SkyDisc> suns = {};  // before the environment (sun_light.h)
 };
 
 // On the dark side of a light the radiance and emissionPdf are zero, and directPdf is that of the

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <vector>
 
 #include "render/image/image_io.h"
+#include "render/light/environment_transform.h"
 #include "render/light/light.h"
+#include "render/light/sky_plugins.h"
 #include "render/scene/change_note.h"
 #include "render/scene/properties.h"
 #include "render/scene/ranges.h"
@@ -129,83 +130,6 @@ Light createConstant(const Properties& properties) {
   return ConstantLight{properties.color("radiance")};
 }
 
-// What a transform does to directions: M = rotation * stretch, with a rotation (perhaps a reflection too)
-// and a symmetric stretch, whose scale as a whole does not matter.
-struct EnvironmentTransform {
-  glm::dmat3 rotation{1}, stretch{1};
-  bool stretches = false;
-};
-
-EnvironmentTransform environmentTransform(const Properties& properties) {
-  constexpr double kNoise = 1e-3;  // of matrices written with few digits
-  glm::dmat3 m(properties.transform("toWorld"));
-  const double scale = std::cbrt(std::abs(glm::determinant(m)));
-  if (!(scale > 0)) properties.fail("toWorld", "expected a transform that can be inverted");
-  if (std::abs(scale - 1) > kNoise)
-    noteChange(properties, "toWorld", fmt::format("a scale of {:g}", scale),
-               "none: directions have no length");
-  m = m * (1 / scale);
-  EnvironmentTransform result;
-  // Newton's iteration for the nearest orthogonal matrix [Higham 1986, "Computing the Polar
-  // Decomposition"].
-  result.rotation = m;
-  for (int i = 0; i < 100; ++i) {
-    const glm::dmat3 next = (result.rotation + glm::transpose(glm::inverse(result.rotation))) * 0.5;
-    double change = 0;
-    for (int k = 0; k < 3; ++k)
-      change = std::max(change, glm::length(next[k] - result.rotation[k]));
-    result.rotation = next;
-    if (change < 1e-14) break;
-  }
-  result.stretch = glm::transpose(result.rotation) * m;
-  double deviation = 0;
-  for (int k = 0; k < 3; ++k) {
-    glm::dvec3 identity(0);
-    identity[k] = 1;
-    deviation = std::max(deviation, glm::length(result.stretch[k] - identity));
-  }
-  result.stretches = deviation > kNoise;
-  if (result.stretches)
-    properties.warn("toWorld",
-                    "the transform of the environment map stretches directions, by up to " +
-                        std::to_string(static_cast<int>(std::ceil(100 * deviation))) + " %");
-  return result;
-}
-
-// The picture as a rotation alone has to see it: at direction d it has what the original has at S^-1 d.
-Image stretched(const Image& image, const glm::dmat3& stretch) {
-  constexpr int kSub = 2;  // samples along a pixel's edge
-  const glm::dmat3 inverse = glm::inverse(stretch);
-  Image result(image.width, image.height);
-  const auto lookUp = [&](double x, double y) {
-    const double left = std::floor(x), top = std::floor(y), a = x - left, b = y - top;
-    const auto texel = [&](double i, double j) {
-      const int column = static_cast<int>(i) % image.width;
-      return glm::dvec3(image.at(column < 0 ? column + image.width : column,
-                                 std::clamp(static_cast<int>(j), 0, image.height - 1)));
-    };
-    return (texel(left, top) * (1 - a) + texel(left + 1, top) * a) * (1 - b) +
-           (texel(left, top + 1) * (1 - a) + texel(left + 1, top + 1) * a) * b;
-  };
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      glm::dvec3 sum(0);
-      for (int k = 0; k < kSub * kSub; ++k) {
-        const int column = k % kSub, row = k / kSub;
-        const double u = (x + (column + 0.5) / kSub) / image.width;
-        const double v = (y + (row + 0.5) / kSub) / image.height;
-        const double phi = 2 * std::numbers::pi * u, theta = std::numbers::pi * v;
-        const glm::dvec3 d = inverse * glm::dvec3(std::sin(phi) * std::sin(theta), std::cos(theta),
-                                                  -std::cos(phi) * std::sin(theta));
-        const double turn = std::atan2(d.x, -d.z) / (2 * std::numbers::pi);
-        const double fall = std::atan2(std::hypot(d.x, d.z), d.y) / std::numbers::pi;
-        sum += lookUp((turn < 0 ? turn + 1 : turn) * image.width - 0.5, fall * image.height - 0.5);
-      }
-      result.at(x, y) = Rgbf(sum / static_cast<double>(kSub * kSub));
-    }
-  return result;
-}
-
 Light createEnvmap(const Properties& properties) {
   const std::string file = properties.file("filename");
   const float scale = properties.number("scale");
@@ -226,7 +150,7 @@ Light createEnvmap(const Properties& properties) {
   return EnvmapLight(image, scale, glm::mat3(transform.rotation));
 }
 
-constexpr std::array kPlugins{
+constexpr std::array kOwnPlugins{
     Plugin<Light>{"area", "light from a shape's surface", kAreaParameters, createArea},
     Plugin<Light>{"point", "light from a point, the same in all directions", kPointParameters,
                   createPoint},
@@ -240,7 +164,14 @@ constexpr std::array kPlugins{
 
 }  // namespace
 
-std::span<const Plugin<Light>> lightPlugins() { return kPlugins; }
+std::span<const Plugin<Light>> lightPlugins() {
+  static const std::vector<Plugin<Light>> all = [] {
+    std::vector<Plugin<Light>> list(kOwnPlugins.begin(), kOwnPlugins.end());
+    list.insert(list.end(), skyPlugins().begin(), skyPlugins().end());
+    return list;
+  }();
+  return all;
+}
 
 void prepareLights(std::span<Light> lights, std::span<const Shape> shapes) {
   for (Light& light : lights)

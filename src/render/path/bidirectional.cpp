@@ -103,7 +103,7 @@ bool BidirectionalSampler::reaches(const Technique& technique) const {
 bool BidirectionalSampler::join(const Scene& scene, Connection& connection, int& notFinite) {
   const auto [s, t] = connection.technique;
   const bool escaped = t - 1 > cameraVertices_;
-  if (escaped && scene.environment < 0) return false;
+  if (escaped && !scene.hasEnvironment()) return false;
   Ends ends{connection.technique,
             escaped ? nullptr : &cameraPath_.camera[at(t) - 1],
             s >= 2 ? &lightPath_.light[at(s) - 1] : nullptr,

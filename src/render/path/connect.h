@@ -114,7 +114,8 @@ Link<T> linkOfAreaLight(const Scene& scene, const SurfacePoint<T>& point, const 
 template <class T>
 Link<T> linkOfEnvironment(const Scene& scene, const Vec3<T>& direction, int t,
                           Techniques techniques) {
-  const int light = scene.environment;
+  const int light = scene.environmentAt(Vec3f(value3(direction)));
+  if (light < 0) return Link<T>::none();
   return std::visit(
       [&](const auto& l) -> Link<T> {
         if (!l.isEnvironment()) return Link<T>::none();

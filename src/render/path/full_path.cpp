@@ -8,11 +8,6 @@
 namespace h2mc {
 namespace {
 
-bool isParallelogram(const Shape& shape) {
-  if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) return mesh->parallelogram;
-  const auto* mesh = std::get_if<MovingMesh>(&shape.geometry);
-  return mesh && mesh->parallelogram;
-}
 bool flipsNormals(const Shape& shape) {
   if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) return sphere->flipNormals;
   if (const auto* cylinder = std::get_if<Cylinder>(&shape.geometry)) return cylinder->flipNormals;
@@ -23,7 +18,7 @@ bool flipsNormals(const Shape& shape) {
 
 // The triangle that samplePrimitive puts the point (u0, u1) on.
 PrimitiveId hitAs(const Scene& scene, PrimitiveId sampled, float u0, float u1) {
-  if (isParallelogram(scene.shapes[sampled.shape])) sampled.primitive = u0 >= u1 ? 0 : 1;
+  if (scene.shapes[sampled.shape].isParallelogram()) sampled.primitive = u0 >= u1 ? 0 : 1;
   return sampled;
 }
 
@@ -99,13 +94,13 @@ bool setLightHit(const Scene& scene, FullPath& full) {
   const PrimitiveId hit = full.x[0].id;
   full.infinite = !hit.valid();
   full.lightPrimitive = {};
-  full.light = hit.valid() ? scene.shapes[hit.shape].light : scene.environment;
+  full.light = hit.valid() ? scene.shapes[hit.shape].light : scene.environmentAt(full.escape);
   if (full.light < 0) return false;
   // What is sampled as a whole is called by its first primitive.
   if (hit.valid()) {
     full.lightPrimitive = hit;
     const Shape& shape = scene.shapes[hit.shape];
-    if (isParallelogram(shape) || !shape.isMesh()) full.lightPrimitive.primitive = 0;
+    if (shape.isParallelogram() || !shape.isMesh()) full.lightPrimitive.primitive = 0;
   }
   full.x[0].delta = false;
   return true;

@@ -30,7 +30,7 @@ bool findOrEscape(const Scene& scene, const PathRay<float>& ray, FullPath& path,
                   bool fromCamera) {
   if (next == 0) path.infinite = false;
   if (find(scene, ray, fromCamera, path.time, path.x[at(next)])) return true;
-  if (next > 0 || scene.environment < 0) return false;
+  if (next > 0 || !scene.hasEnvironment()) return false;
   path.infinite = true;
   path.escape = ray.direction;
   return true;

@@ -170,7 +170,7 @@ bool traceCamera(const Scene& scene, Path& path, int first) {
   for (int i = first; i < t; ++i) {
     const Step step = stepCamera(scene, path, i);
     if (step == Step::kArrived) continue;
-    path.escaped = step == Step::kEscaped && s == 0 && i == t - 1 && scene.environment >= 0;
+    path.escaped = step == Step::kEscaped && s == 0 && i == t - 1 && scene.hasEnvironment();
     return path.escaped;
   }
   return true;
@@ -280,7 +280,8 @@ bool joinPath(const Scene& scene, Path& path, bool cast) {
        path.lightPrimitive, direct ? u[0] : 0, direct ? u[1] : 0, path.sample.time},
       cast);
   if (s == 0)
-    path.lightIndex = path.escaped ? scene.environment : scene.shapes[camera->id.shape].light;
+    path.lightIndex = path.escaped ? scene.environmentAt(path.lastRay.direction)
+                                   : scene.shapes[camera->id.shape].light;
   if (t == 1) {
     path.filmX = joined.filmX;
     path.filmY = joined.filmY;

@@ -15,7 +15,8 @@ namespace {
 TriangleMesh readState(ReaderContext& context, const XmlElement& element) {
   const auto& plugin = findPlugin(shapePlugins(), element, "shape");
   if (!plugin.create)
-    throw sourceError(element.place("type"), "a deforming shape inside a deforming shape",
+    throw sourceError(element.place("type"),
+                      "a shape \"" + std::string(plugin.name) + "\" inside a deforming shape",
                       "expected a mesh");
   const ElementProperties properties(context, element, {"shape", plugin.parameters, 0, {}, false});
   ShapeGeometry made = createLocated(properties, plugin.create);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 
 #include "render/scene/color_reader.h"
 #include "render/scene/element_properties.h"
@@ -100,14 +101,21 @@ std::string colorOf(const std::string& type) {
   return type == "area" || type == "constant" ? "radiance" : "";
 }
 
+// Whether a light of this type has a number for that.
+bool hasScale(const std::string& type) { return isOneOf(type, {"envmap", "sky", "sun", "sunsky"}); }
+
+double scaleOf(const XmlElement& emitter, const char* name) {
+  const XmlElement* const scale = findParameter(emitter, name);
+  return scale ? readNumber(*scale, "value") : 1;
+}
+
 bool scaleEmitter(const SceneDocument& document, XmlElement& emitter, double factor) {
   const std::string type = typeOf(emitter), color = colorOf(type);
   if (!color.empty()) return scaleColor(document, emitter, color, factor);
-  if (type != "envmap") return false;
-  double scale = 1;
-  if (findParameter(emitter, "scale"))
-    scale = readNumber(*findParameter(emitter, "scale"), "value");
-  return setNumber(emitter, "scale", scale * factor);
+  if (!hasScale(type)) return false;
+  for (const char* part : {"sunScale", "skyScale"})
+    if (findParameter(emitter, part)) setNumber(emitter, part, scaleOf(emitter, part) * factor);
+  return setNumber(emitter, "scale", scaleOf(emitter, "scale") * factor);
 }
 
 // Adds operations to the element's toWorld, and to each of its keyframes: as its last steps, in world
@@ -237,6 +245,20 @@ int shrinkLights(SceneDocument& document, double share) {
   });
 }
 
+namespace {
+
+// What stands inside shape groups, whose place their instances decide on.
+std::set<const XmlElement*> inGroups(const SceneDocument& document) {
+  std::set<const XmlElement*> inside;
+  forEach(document.root, [&](const XmlElement& element) {
+    if (element.name == "shape" && typeOf(element) == "shapegroup")
+      for (const XmlElement& child : element.children) inside.insert(&child);
+  });
+  return inside;
+}
+
+}  // namespace
+
 int moveScene(SceneDocument& document, double scale, const glm::dvec3& offset) {
   const bool moves = offset != glm::dvec3(0);
   if (scale == 1 && !moves) return 0;
@@ -251,10 +273,12 @@ int moveScene(SceneDocument& document, double scale, const glm::dvec3& offset) {
     if (given || otherwise > 0)
       setNumber(element, name, (given ? readNumber(*given, "value") : otherwise) * scale);
   };
+  const auto grouped = inGroups(document);
   return edit(document, [&](XmlElement& element) {
     const std::string type = typeOf(element);
     if (element.name == "shape") {
       if (type == "deforming") return false;  // the shapes inside it move
+      if (type == "shapegroup" || grouped.count(&element)) return false;
       addOperations(element, operationsOf(element), Where::kLast);
       return true;
     }
@@ -284,6 +308,7 @@ int moveScene(SceneDocument& document, double scale, const glm::dvec3& offset) {
 
 ScenePlaces placesOf(const SceneDocument& document) {
   ScenePlaces places;
+  const auto grouped = inGroups(document);
   bool hasCamera = false;
   forEach(document.root, [&](const XmlElement& element) {
     const std::string type = typeOf(element);
@@ -291,7 +316,8 @@ ScenePlaces placesOf(const SceneDocument& document) {
       places.camera = placeOf(element);
       hasCamera = true;
     } else if (element.name == "shape") {
-      if (type != "deforming") places.things.push_back(placeOf(element));
+      if (type != "deforming" && type != "shapegroup" && !grouped.count(&element))
+        places.things.push_back(placeOf(element));
     } else if (isEmitter(element) && (type == "point" || type == "spot")) {
       places.things.push_back(placeOf(element));
     }
@@ -308,9 +334,9 @@ double brightestLight(const SceneDocument& document) {
     if (!color.empty()) {
       double& brightest = color == "intensity" ? intensity : radiance;
       brightest = std::max(brightest, largestColor(document, element, color));
-    } else if (type == "envmap") {
-      const XmlElement* const scale = findParameter(element, "scale");
-      radiance = std::max(radiance, scale ? readNumber(*scale, "value") : 1.0);
+    } else if (hasScale(type)) {
+      for (const char* name : {"scale", "sunScale", "skyScale"})
+        radiance = std::max(radiance, scaleOf(element, name));
     }
   });
   const double brightest = radiance > 0 ? radiance : intensity;

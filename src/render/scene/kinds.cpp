@@ -9,8 +9,10 @@ namespace {
 // In the order of the variants' alternatives.
 constexpr const char* kShapes[] = {
     "triangle mesh",        "sphere",        "disk",        "cylinder",
-    "moving triangle mesh", "moving sphere", "moving disk", "moving cylinder"};
-constexpr const char* kLights[] = {"area", "point", "spot", "directional", "constant", "envmap"};
+    "moving triangle mesh", "moving sphere", "moving disk", "moving cylinder",
+    "moving instance",      "instance"};
+constexpr const char* kLights[] = {"area",     "point",  "spot", "directional",
+                                   "constant", "envmap", "sun"};
 // Bsdf's, then those of FurtherBsdf, its last alternative.
 constexpr const char* kBsdfs[] = {
     "diffuse", "phong",        "roughconductor", "roughdielectric", "conductor",    "dielectric",

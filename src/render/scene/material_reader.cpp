@@ -257,6 +257,12 @@ int ReaderContext::makeMaterial(const XmlElement& element) {
     if (isAnisotropic(bsdf)) material.frame = alongTangents();
     material.front = static_cast<int>(scene.bsdfs.size());
     scene.bsdfs.push_back(std::move(bsdf));
+  } else if (plugin.name == "null") {
+    // A mask that is all hole.
+    const ElementProperties properties(*this, element, {"bsdf", {}, 0, {}, false});
+    material.front = static_cast<int>(scene.bsdfs.size());
+    scene.bsdfs.push_back(Diffuse{{}, constantTexture(Rgbf(0))});
+    material.opacity = constantTexture(Rgbf(0));
   } else {
     material = makeNested(*this, element, plugin);
   }

@@ -13,6 +13,15 @@ class ElementProperties;
 // Adds the shape with its material and its area light.
 void readShape(ReaderContext& context, const XmlElement& element);
 
+// Adds what a shape "instance" puts into the scene. "shapegroup" adds nothing.
+void readInstance(ReaderContext& context, const XmlElement& element);
+
+// Refuses (SceneError) what is too far for rays to be cast and squares of distances to be taken in float.
+void checkExtent(const XmlElement& element, const std::string& what, float reach);
+void checkExtent(const XmlElement& element, const Shape& shape);
+// Notes where a motion is cut into too few pieces.
+void noteMotionError(ReaderContext& context, const std::string& name, double error);
+
 // The geometry of a shape "deforming", made of the shapes nested in it, once its own parameters have
 // been checked.
 ShapeGeometry readDeforming(ReaderContext& context, const ElementProperties& properties);

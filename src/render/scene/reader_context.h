@@ -22,6 +22,8 @@ class ReaderContext {
   const SceneDocument& document;
   Scene& scene;
   Problems problems;
+  std::map<const XmlElement*, std::vector<Shape>>
+      groups;                 // shapes of those that instances refer to
   SourcePlace hidesEmitters;  // where the scene says that the camera does not see lamps
 
   // Adds a line to the scene's notes, once.

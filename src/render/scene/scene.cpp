@@ -27,6 +27,15 @@ struct Box {
   void add(const MovingSphere& sphere) {
     for (const Sphere& step : sphere.steps) add(step);
   }
+  void add(const MeshInstance& instance) { add(*instance.shared, instance.placement); }
+  void add(const MovingMeshInstance& instance) {
+    for (const Placement& step : instance.steps) add(*instance.shared, step);
+  }
+  void add(const SharedMesh& shared, const Placement& placement) {
+    const Vec3f ends[2] = {shared.low, shared.high};
+    for (int corner = 0; corner < 8; ++corner)
+      add(placement.point({ends[corner & 1].x, ends[corner >> 1 & 1].y, ends[corner >> 2].z}));
+  }
   void add(const MovingDisk& disk) {
     for (const Disk& step : disk.steps) add(step);
   }
@@ -76,6 +85,19 @@ void Scene::finish() {
                                          [](const Shape& shape) { return shape.moves(); });
   bounds = boundsOf(shapes);
   prepareLights(lights, shapes);
+  sunLights.clear();
+  suns.clear();
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    if (auto* sun = std::get_if<SunLight>(&lights[i])) {
+      sunLights.push_back(static_cast<int>(i));
+      suns.push_back(sun->disc());
+      if (environment < 0) continue;
+      std::visit(
+          [&](const auto& l) {
+            if constexpr (kBehindSuns<std::remove_cvref_t<decltype(l)>>) sun->setBehind(l);
+          },
+          lights[at(environment)]);
+    }
   std::vector<double> powers;
   for (const Light& light : lights)
     powers.push_back(

@@ -36,7 +36,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Bsdf> bsdfs;
   std::vector<Light> lights;
-  int environment = -1;  // index of the constant or envmap light, or -1
+  int environment = -1;  // index of the constant or envmap light, or -1; suns stand before it
   OptionSet integrator;  // what the scene asks for; integrator() is empty when it does not say
   // What the scene says of rendering in any integrator's words, by our options' names (maxDepth,
   // sigma, ...): for an integrator that is not the scene's own; what it does not have is not for it.
@@ -58,8 +58,18 @@ struct Scene {
   // How probable each light is: for next-event estimation, and for a light subpath to start from.
   LightPicker directPicker, emissionPicker;
   std::unique_ptr<RayTracer> tracer;
+  // The lights that are a SunLight, and their discs.
+  std::vector<int> sunLights;
+  std::vector<SkyDisc> suns;
 
-  LightContext lightContext() const { return {shapes, bounds}; }
+  LightContext lightContext() const { return {shapes, bounds, suns}; }
+  // Whether there is light where a ray leaves the scene, and which, in a direction; -1 for none.
+  bool hasEnvironment() const { return environment >= 0 || !suns.empty(); }
+  int environmentAt(const Vec3f& direction) const {
+    for (std::size_t i = 0; i < suns.size(); ++i)
+      if (suns[i].covers(direction)) return sunLights[i];
+    return environment;
+  }
 
   // Computes what follows from the parts: bounds, light probabilities, the tracer. Call once, when
   // shapes, materials and lights are in place. Throws std::runtime_error if Embree fails.

@@ -99,6 +99,10 @@ void noteUnits(ReaderContext& context) {
   }
 }
 
+float farthest(const Vec3f& p) {  // coordinate from 0
+  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+}
+
 // Goes through what stands on top of a scene; what is wrong with one part does not keep it from reading
 // the next.
 class SceneReader {
@@ -153,19 +157,6 @@ class SceneReader {
     }
   }
 
-  static float farthest(const Vec3f& p) {  // coordinate from 0
-    return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  }
-
-  // Where it is too far for rays to be cast and squares of distances to be taken in float.
-  static void checkExtent(const XmlElement& element, const std::string& what, float reach) {
-    constexpr float kFarthest = 1e15f;
-    if (!(reach <= kFarthest))
-      throw sourceError(
-          element.place(), fmt::format("{} reaches to a coordinate of {:.3g}", what, reach),
-          fmt::format("expected coordinates up to {:.0g}: the scene in a larger unit", kFarthest));
-  }
-
   // Their lengths do not matter, but squares of 1e-25 are nothing in float, and those of 1e25 no number.
   static void checkAxes(const XmlElement& element, const Camera& camera) {
     for (const float time : {0.f, 1.f}) {
@@ -181,11 +172,7 @@ class SceneReader {
     const std::vector<Shape>& shapes = context_.scene.shapes;
     const std::size_t before = shapes.size();
     readShape(context_, element);
-    for (std::size_t i = before; i < shapes.size(); ++i) {
-      const SceneBounds bounds = boundsOf(std::span(shapes).subspan(i, 1));
-      checkExtent(element, "shape \"" + shapes[i].name + "\"",
-                  farthest(bounds.center) + bounds.radius);
-    }
+    for (std::size_t i = before; i < shapes.size(); ++i) checkExtent(element, shapes[i]);
   }
 
   void sort(const XmlElement& child) {
@@ -214,7 +201,8 @@ class SceneReader {
   }
 
   bool isUnreferred(const XmlElement& child) const {
-    return isForReference(child) && !isEmitter(child) && !referred_.count(&child);
+    const bool group = child.name == "shape" && lowerCase(child.attribute("type")) == "shapegroup";
+    return (group || isForReference(child)) && !isEmitter(child) && !referred_.count(&child);
   }
 
   // What nothing needs. It is checked all the same, but whatever is wrong with it does no harm.
@@ -270,6 +258,19 @@ class SceneReader {
 };
 
 }  // namespace
+
+void checkExtent(const XmlElement& element, const std::string& what, float reach) {
+  constexpr float kFarthest = 1e15f;
+  if (!(reach <= kFarthest))
+    throw sourceError(
+        element.place(), fmt::format("{} reaches to a coordinate of {:.3g}", what, reach),
+        fmt::format("expected coordinates up to {:.0g}: the scene in a larger unit", kFarthest));
+}
+
+void checkExtent(const XmlElement& element, const Shape& shape) {
+  const SceneBounds bounds = boundsOf({&shape, 1});
+  checkExtent(element, "shape \"" + shape.name + "\"", farthest(bounds.center) + bounds.radius);
+}
 
 Scene readScene(const std::string& file, const ReadOptions& options) {
   return makeScene(*loadSceneDocument(file, options.defines, options.confine), options);

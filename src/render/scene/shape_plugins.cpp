@@ -42,6 +42,8 @@ constexpr Parameter kPly[] = {kFilename,
                               kMaxSmoothAngle,
                               ignoredParameter("srgb", kBoolean)};
 constexpr Parameter kFlat[] = {kToWorld, kFlipNormals};
+constexpr Parameter kInstance[] = {
+    {"toWorld", kTransform, "", "from the group's space to the world; may be an <animation>"}};
 constexpr Parameter kDeforming[] = {
     {"startTime", kNumber, "", "when it has the first nested shape's form; the shutter's opening"},
     {"endTime", kNumber, "", "when it has the last one's; the shutter's closing"}};
@@ -270,6 +272,11 @@ std::span<const Plugin<ShapeGeometry>> shapePlugins() {
       {"cylinder", "an open cylinder, its normals outwards", kCylinderParameters, createCylinder},
       {"deforming", "two or more nested meshes of the same triangles, taken in turn at equal times",
        kDeforming, nullptr},
+      {"shapegroup",
+       "nested shapes that are nowhere themselves, for instances to refer to",
+       {},
+       nullptr},
+      {"instance", "a copy of a shape group, which shares its meshes", kInstance, nullptr},
   };
   return kPlugins;
 }

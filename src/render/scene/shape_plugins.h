@@ -28,7 +28,8 @@ struct ShapePart {
 std::vector<ShapePart> readObjParts(const Properties& p);
 
 // Every shape, in `h2mc list`'s order. An empty mesh comes back when all its triangles were dropped.
-// "deforming" has no `create`: it is made of other shapes, by readDeforming().
+// Those made of other shapes have no `create`: "deforming" (readDeforming()), "shapegroup" and "instance"
+// (readInstance()).
 std::span<const Plugin<ShapeGeometry>> shapePlugins();
 
 }  // namespace h2mc

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <iomanip>
 #include <map>
-#include <sstream>
 
 #include "render/scene/element_properties.h"
 #include "render/scene/part_readers.h"
@@ -65,13 +65,7 @@ void addShape(ReaderContext& context, const Parts& parts, Shape shape, ShapeGeom
     context.note("left out: " + std::to_string(made.dropped) +
                  (made.dropped == 1 ? " triangle" : " triangles") + " without area of shape \"" +
                  shape.name + "\"");
-  if (made.motionError > kChordError) {
-    std::ostringstream percent;
-    percent << std::setprecision(2) << 100 * made.motionError;
-    context.note("shape \"" + shape.name + "\" turns so far that in " +
-                 std::to_string(kMaxMotionSegments) + " steps it is off by up to " + percent.str() +
-                 " % of its size");
-  }
+  noteMotionError(context, shape.name, made.motionError);
   const auto* still = std::get_if<TriangleMesh>(&made.geometry);
   const auto* moving = std::get_if<MovingMesh>(&made.geometry);
   if ((still && still->triangles.empty()) || (moving && moving->triangles.empty())) {
@@ -142,10 +136,20 @@ class NamedBsdfs {
 
 }  // namespace
 
+void noteMotionError(ReaderContext& context, const std::string& name, double error) {
+  if (error > kChordError)
+    context.note(fmt::format(
+        "shape \"{}\" turns so far that in {} steps it is off by up to {:.2g} % of its size", name,
+        kMaxMotionSegments, 100 * error));
+}
+
 void readShape(ReaderContext& context, const XmlElement& element) {
   const std::string type = lowerCase(element.require("type"));
-  if (type == "shapegroup" || type == "instance")
-    unsupported(element, "shape groups and instances");
+  if (type == "shapegroup") return;
+  if (type == "instance") {
+    readInstance(context, element);
+    return;
+  }
   if (type == "hair") unsupported(element, "hair fibres");
   const auto& plugin = findPlugin(shapePlugins(), element, "shape");
 
