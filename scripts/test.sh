@@ -93,7 +93,7 @@ licences() {
   local files
   files=$(cd "$root" && find src tests scripts cmake scenes .ci CMakeLists.txt -type f \
     -regextype posix-extended -regex '.*(\.(cpp|h|js|css|py|sh|cmake|cpp\.in)|CMakeLists\.txt|run)' \
-    -exec grep -LE 'SPDX-License-Identifier: (MIT|BSD-3-Clause)$' {} +)
+    -exec grep -LE 'SPDX-License-Identifier: (MIT|BSD-3-Clause)( |$)' {} +)
   [[ -z $files ]] && return
   printf 'Without a line "SPDX-License-Identifier: MIT":\n%s\n' "$files"
   return 1
