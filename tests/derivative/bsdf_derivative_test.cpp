@@ -20,16 +20,22 @@ Vec3<T> spherical(const T& theta, const T& phi) {
   return {s * cp, s * sp, c};
 }
 
-// Probability that (u0, u1) go to `lobe`: where chooseLobe changes its mind.
+// Probability that (u0, u1) go to the lobe that `choice` draws: between where chooseLobe changes its mind.
 template <class B>
-double lobeProbability(const B& b, const Vec2f& uv, const Vec3f& wi, float u0, float u1, int lobe) {
-  float low = 0, high = 1;
-  const int first = b.chooseLobe(uv, wi, u0, u1, 0);
-  for (int i = 0; i < 30; ++i) {
-    const float middle = 0.5f * (low + high);
-    (b.chooseLobe(uv, wi, u0, u1, middle) == first ? low : high) = middle;
-  }
-  return lobe == first ? high : 1 - double(high);
+double lobeProbability(const B& b, const Vec2f& uv, const Vec3f& wi, float u0, float u1,
+                       float choice) {
+  const int lobe = b.chooseLobe(uv, wi, u0, u1, choice);
+  const auto edge = [&](float outside) {
+    float inside = choice;
+    if (b.chooseLobe(uv, wi, u0, u1, outside) == lobe) return outside;
+    for (int i = 0; i < 30; ++i) {
+      const float middle = 0.5f * (inside + outside);
+      (b.chooseLobe(uv, wi, u0, u1, middle) == lobe ? inside : outside) = middle;
+    }
+    return outside;
+  };
+  const float end = edge(0x1.fffffep-1f);
+  return (end == 0x1.fffffep-1f ? 1 : double(end)) - edge(0);
 }
 
 TEST(BsdfDerivative, DensityIsTheInverseJacobianOfSampling) {
@@ -46,7 +52,8 @@ TEST(BsdfDerivative, DensityIsTheInverseJacobianOfSampling) {
                 direction(side * (0.05f + 0.94f * random.uniform()), 6 * random.uniform());
             const Vec3<double> in = glm::normalize(Vec3<double>(wi));
             const float u0 = 0.01f + 0.97f * random.uniform(), u1 = random.uniform();
-            const int lobe = b.chooseLobe(uv, wi, u0, u1, random.uniform());
+            const float choice = random.uniform();
+            const int lobe = b.chooseLobe(uv, wi, u0, u1, choice);
             if (b.isDelta(lobe)) continue;
             const Vec3<D> wo = b.template sample<D>(Vec2<D>(D(uv.x), D(uv.y)), {in.x, in.y, in.z},
                                                     lobe, D::variable(u0, 0), D::variable(u1, 1));
@@ -57,7 +64,7 @@ TEST(BsdfDerivative, DensityIsTheInverseJacobianOfSampling) {
             const Vec3<double> d0(wo.x.gradient(0), wo.y.gradient(0), wo.z.gradient(0));
             const Vec3<double> d1(wo.x.gradient(1), wo.y.gradient(1), wo.z.gradient(1));
             const double jacobian = glm::length(glm::cross(d0, d1));
-            const double probability = lobeProbability(b, uv, wi, u0, u1, lobe);
+            const double probability = lobeProbability(b, uv, wi, u0, u1, choice);
             // The probability comes from float comparisons.
             EXPECT_NEAR(pdf * jacobian / probability, 1, 2e-6 / probability + 2e-5)
                 << c.name << ", lobe " << lobe << ", wi.z " << wi.z << ", u " << u0 << " " << u1;

@@ -29,6 +29,7 @@ namespace h2mc {
 // What each alternative provides (B = the struct, all const):
 //
 //   static constexpr int kLobes;             // number of lobes, indexed 0 .. kLobes - 1
+//   int lobes();                             // optional: how many of these there are
 //   bool isDelta(int lobe);                  // a mirror-like lobe
 //   bool hasNonDelta();                      // evaluate() can be non-zero: connections are worth it
 //   bool transmits();                        // can scatter to the other side
@@ -47,6 +48,8 @@ namespace h2mc {
 //   int chooseLobe(const Vec2f& uv, const Vec3f& wi, float u0, float u1, float choice);
 //   // Below this choice it is the lobe that chooseLobe gives at 0, from there on the other one.
 //   float lobeSplit(const Vec2f& uv, const Vec3f& wi, float u0, float u1);
+//   // Instead of that, where there may be more than two: the choices that draw the lobe.
+//   ChoiceInterval choiceInterval(const Vec2f& uv, const Vec3f& wi, float u0, float u1, int lobe);
 //
 //   // The direction that the non-delta lobe draws from (u0, u1) in [0, 1)^2. u1 is an azimuth: it
 //   // wraps. May return a direction that evaluate() gives zero for: noDirection() where the draw

@@ -47,6 +47,11 @@ struct MixtureShares {
   }
 };
 
+// The choice coordinates in [begin, end) draw a lobe.
+struct ChoiceInterval {
+  float begin = 0, end = 0;
+};
+
 template <class T>
 struct DeltaSample {
   Vec3<T> wo;

@@ -17,8 +17,11 @@ struct FurtherBsdf {
   static constexpr int kLobes = 2;
   std::variant<ThinDielectric, DiffuseTransmitter, RoughDiffuse, Ward> bsdf;
 
+  int lobes() const {
+    return std::visit([](const auto& b) { return lobesOf(b); }, bsdf);
+  }
   bool isDelta(int lobe) const {
-    return std::visit([&](const auto& b) { return b.isDelta(lobe); }, bsdf);
+    return std::visit([&](const auto& b) { return has(b, lobe) && b.isDelta(lobe); }, bsdf);
   }
   bool hasNonDelta() const {
     return std::visit([](const auto& b) { return b.hasNonDelta(); }, bsdf);
@@ -43,8 +46,10 @@ struct FurtherBsdf {
         },
         bsdf);
   }
-  float lobeSplit(const Vec2f& uv, const Vec3f& wi, float u0, float u1) const {
-    return std::visit([&](const auto& b) { return b.lobeSplit(uv, wi, u0, u1); }, bsdf);
+  ChoiceInterval choiceInterval(const Vec2f& uv, const Vec3f& wi, float u0, float u1,
+                                int lobe) const {
+    return std::visit([&](const auto& b) { return choiceIntervalOf(b, uv, wi, u0, u1, lobe); },
+                      bsdf);
   }
   int chooseLobe(const Vec2f& uv, const Vec3f& wi, float u0, float u1, float choice) const {
     return std::visit([&](const auto& b) { return b.chooseLobe(uv, wi, u0, u1, choice); }, bsdf);
@@ -83,8 +88,8 @@ struct FurtherBsdf {
  private:
   // Not all have as many lobes as this.
   template <class B>
-  static bool has(const B&, int lobe) {
-    return lobe < B::kLobes;
+  static bool has(const B& b, int lobe) {
+    return lobe < lobesOf(b);
   }
 };
 

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 
+#include "render/bsdf/lobe_kinds.h"
+
 namespace h2mc {
 namespace {
 
 int lobeCount(const Bsdf& bsdf) {
-  return std::visit([](const auto& b) { return std::remove_cvref_t<decltype(b)>::kLobes; }, bsdf);
+  return std::visit([](const auto& b) { return lobesOf(b); }, bsdf);
 }
 
 }  // namespace
@@ -16,7 +18,7 @@ ChoiceInterval choiceInterval(std::span<const Bsdf> bsdfs, const Material& mater
                               const Vec2f& uv, const Vec3f& wi, float u0, float u1, LobeId lobe) {
   bool back;
   const Bsdf* const bsdf = detail::seen(bsdfs, material, wi.z, back);
-  // Up to three intervals: a BSDF's two lobes, then passing through where it is not opaque.
+  // A BSDF's lobes, then passing through where it is not opaque.
   const float opaque =
       material.opacity ? detail::opacityProbability(evaluate<float>(*material.opacity, uv)) : 1;
   if (lobe.null) return {opaque, 1};
@@ -30,14 +32,12 @@ ChoiceInterval choiceInterval(std::span<const Bsdf> bsdfs, const Material& mater
     return {(begin + share * inner.begin) * opaque, (begin + share * inner.end) * opaque};
   }
   if (!bsdf || lobe.back != back) return {};
-  return std::visit(
-      [&](const auto& b) -> ChoiceInterval {
-        const Vec3f w = detail::facing(wi, back);
-        const float split = std::clamp(b.lobeSplit(uv, w, u0, u1), 0.f, 1.f);
-        const bool first = split > 0 && b.chooseLobe(uv, w, u0, u1, 0) == lobe.lobe;
-        return first ? ChoiceInterval{0, split * opaque} : ChoiceInterval{split * opaque, opaque};
+  const ChoiceInterval inner = std::visit(
+      [&](const auto& b) {
+        return choiceIntervalOf(b, uv, detail::facing(wi, back), u0, u1, lobe.lobe);
       },
       *bsdf);
+  return {inner.begin * opaque, inner.end * opaque};
 }
 
 bool drawLobe(std::span<const Bsdf> bsdfs, const Material& material, const Vec2f& uv,

@@ -7,11 +7,6 @@
 
 namespace h2mc {
 
-// The choice coordinates in [begin, end) draw a lobe.
-struct ChoiceInterval {
-  float begin = 0, end = 0;
-};
-
 // Where chooseLobe(..., choice) gives `lobe`; empty if nowhere. Lobes own one interval each.
 ChoiceInterval choiceInterval(std::span<const Bsdf> bsdfs, const Material& material,
                               const Vec2f& uv, const Vec3f& wi, float u0, float u1, LobeId lobe);

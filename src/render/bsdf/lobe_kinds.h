@@ -2,6 +2,8 @@
 // Members that BSDFs of one kind have in common (bsdf.h says what each is).
 #pragma once
 
+#include <algorithm>
+
 #include "render/bsdf/bsdf_types.h"
 #include "render/core/hemisphere.h"
 
@@ -56,5 +58,27 @@ struct CosineLobe : NonDeltaLobes {
   }
   float width(int) const { return kPi / 2; }
 };
+
+// How many lobes there are: kLobes but where that is only the most there may be.
+template <class B>
+int lobesOf(const B& bsdf) {
+  if constexpr (requires { bsdf.lobes(); })
+    return bsdf.lobes();
+  else
+    return B::kLobes;
+}
+
+// Which choices draw a lobe that there is: by choiceInterval(), or by the lobeSplit() of those with two lobes at most.
+template <class B>
+ChoiceInterval choiceIntervalOf(const B& bsdf, const Vec2f& uv, const Vec3f& wi, float u0, float u1,
+                                int lobe) {
+  if constexpr (requires { bsdf.choiceInterval(uv, wi, u0, u1, lobe); }) {
+    return bsdf.choiceInterval(uv, wi, u0, u1, lobe);
+  } else {
+    const float split = std::clamp(bsdf.lobeSplit(uv, wi, u0, u1), 0.f, 1.f);
+    const bool first = split > 0 && bsdf.chooseLobe(uv, wi, u0, u1, 0) == lobe;
+    return first ? ChoiceInterval{0, split} : ChoiceInterval{split, 1};
+  }
+}
 
 }  // namespace h2mc
