@@ -12,7 +12,7 @@ class List(_h2mc.Test):
     def test_everything(self):
         text = self.succeeds("list").stdout
         for name in ("diffuse", "phong", "roughconductor", "roughdielectric", "conductor",
-                     "dielectric", "plastic", "roughplastic", "twosided", "mask",
+                     "dielectric", "plastic", "roughplastic", "coating", "roughcoating", "twosided", "mask",
                      "area", "point", "spot", "directional", "constant", "envmap",
                      "serialized", "obj", "ply", "rectangle", "cube", "sphere", "disk",
                      "bitmap", "checkerboard", *_h2mc.INTEGRATORS):

@@ -38,6 +38,8 @@ def color(name, more=""):
 UNSCALED = '<boolean name="ensureEnergyConservation" value="false"/>'
 EMITTER = '<emitter type="{}">{}</emitter></scene>'
 
+BASE = GREY.replace(' id="grey"', "")
+
 # What stands in the good scene, what stands there instead with {} for a value; values that are refused; words of the
 # message; values that are accepted.
 RANGES = {
@@ -71,8 +73,22 @@ RANGES = {
                           ("difftrans", "transmittance"), ("roughdiffuse", "reflectance"),
                           ("ward", "diffuseReflectance"), ("ward", "specularReflectance"))},
     "mixture weights": (*bsdf("mixturebsdf",
-                              text("weights").replace("{}", "1, {}") + 2 * GREY.replace(' id="grey"', "")),
+                              text("weights").replace("{}", "1, {}") + 2 * BASE),
                         ("-1", "1001", "1e39"), ("from 0 to 1000", "too large"), ("0", "1000", "1e-30")),
+    **{f"{kind} {name}": (*bsdf(kind, given + BASE), bad, says, good)
+       for kind in ("coating", "roughcoating")
+       for name, given, bad, says, good in (
+           ("intIOR", text("intIOR"), ("0", "-1", "101"), "a refractive index from 0.01 to 100",
+            ("0.01", "100", "1.0001")),
+           ("extIOR", text("extIOR"), ("0", "bk7"), ("from 0.01 to 100", "must differ"), ("0.01", "100")),
+           ("thickness", number("thickness") + color("sigmaA").format("1"), ("-1", "1e5"), "from 0 to 10000",
+            ("0", "1e-30", "1e4")),
+           ("sigmaA", color("sigmaA"), ("-1", "1e5", "0, 0, 1e5"), ("must not be negative", "values up to 10000"),
+            ("0", "1e-30", "1e4")))},
+    "roughcoating alpha": (*bsdf("roughcoating", number("alpha") + BASE), ("-1", "101"), "from 0 to 100",
+                           ("0", "1e-30", "1", "100")),
+    "coating specularReflectance": (*bsdf("coating", color("specularReflectance", UNSCALED) + BASE), ("-1", "1001"),
+                                    ("a colour must not be negative", "values up to 1000"), ("0", "1e-30", "1.5")),
     "area radiance": (LAMP, f'<emitter type="area">{color("radiance")}</emitter>', ("-1", "1e39", "1, nan, 1"),
                       ("negative", "too large", "finite"), ("1e-30", "1e30")),
     "point intensity": (END, EMITTER.format("point", color("intensity")), ("-1", "1e39"), ("negative", "too large"),

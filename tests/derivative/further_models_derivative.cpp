@@ -48,6 +48,12 @@ Scene scene(const testing::SceneFolder& folder, const std::string& motion) {
     <float name="radius" value="0.4"/>)" +
       motion + bump + R"(<bsdf type="ward"><float name="alphaU" value="0.2"/>
     <float name="alphaV" value="0.4"/></bsdf></bsdf></shape>
+  <shape type="sphere"><point name="center" x="-0.5" y="0.4" z="1.6"/><float name="radius" value="0.4"/>
+    <bsdf type="coating"><rgb name="sigmaA" value="0.1, 0.3, 0.5"/><bsdf type="roughconductor">
+    <float name="alpha" value="0.25"/></bsdf></bsdf></shape>
+  <shape type="sphere"><point name="center" x="0.6" y="0.4" z="1.6"/><float name="radius" value="0.4"/>
+    <bsdf type="roughcoating"><float name="alpha" value="0.2"/><rgb name="sigmaA" value="0.5, 0.3, 0.1"/>
+    <bsdf type="phong"/></bsdf></shape>
   <shape type="disk"><transform name="toWorld"><scale value="0.7"/><translate x="1.5" y="0.9" z="0.8"/></transform>
     <bsdf type="difftrans"/></shape>
   <shape type="sphere"><point name="center" x="1.9" y="0.6" z="-0.8"/><float name="radius" value="0.6"/>
@@ -71,7 +77,8 @@ void expectNothingWrong(const Scene& scene, bool moving) {
     kinds |= p.traits.bsdfs;
   }
   EXPECT_GT(judged, 250);
-  for (const char* wanted : {"ward", "difftrans", "roughdiffuse", "roughconductor", "diffuse"})
+  for (const char* wanted : {"ward", "difftrans", "roughdiffuse", "roughconductor", "diffuse",
+                             "coating", "roughcoating"})
     for (std::size_t k = 0; k < bsdfKinds().size(); ++k) {
       if (std::string(bsdfKinds()[k]) == wanted) {
         EXPECT_TRUE((kinds >> k) & 1) << wanted;

@@ -75,10 +75,27 @@ std::vector<Case> cases() {
                     "crosscheck2"});
   }
   // One further kind of surface, texture, shape or light each; all that is sampled is seen by all integrators.
-  for (const char* scene :
-       {"texture_uv", "roughness_texture", "thindielectric", "blendbsdf", "mixturebsdf", "bumpmap",
-        "bumpmap_roughconductor", "normalmap", "cylinder", "roughdiffuse", "difftrans", "ward",
-        "roughconductor_phong", "spot_texture", "obj_groups", "sky", "sun", "sunsky", "instance"}) {
+  for (const char* scene : {"texture_uv",
+                            "roughness_texture",
+                            "thindielectric",
+                            "blendbsdf",
+                            "mixturebsdf",
+                            "bumpmap",
+                            "bumpmap_roughconductor",
+                            "normalmap",
+                            "cylinder",
+                            "roughdiffuse",
+                            "difftrans",
+                            "ward",
+                            "roughconductor_phong",
+                            "spot_texture",
+                            "obj_groups",
+                            "coating",
+                            "roughcoating",
+                            "sky",
+                            "sun",
+                            "sunsky",
+                            "instance"}) {
     const std::string name = scene;
     list.push_back({name,
                     "path",

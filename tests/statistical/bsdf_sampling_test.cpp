@@ -130,7 +130,8 @@ TEST(BsdfSampling, AlbedoIsAtMostOneAndMatchesQuadrature) {
               if (b.isDelta(lobe))
                 integral += reflectance(b.template sampleDelta<float>(kUv, wi, lobe)).y;
             for (const int side : {1, -1}) {
-              const int lobe = c.entersBack && side * cosine < 0 ? 1 : 0;
+              int lobe = c.entersBack && side * cosine < 0 ? 1 : 0;
+              if (lobe == 0 && b.isDelta(0) && b.hasNonDelta() && !b.isDelta(1)) lobe = 1;
               double scale = 1;
               if constexpr (std::is_same_v<B, RoughDielectric>)
                 if (lobe == 1)
@@ -170,6 +171,38 @@ TEST(BsdfSampling, LosslessSurfacesReflectEverything) {
   expectOne(roughConductor(facets(kGgx, 0.001f)), "roughconductor ggx", 2e-4);
   expectOne(roughConductor(facets(kBeckmann, 0.001f)), "roughconductor beckmann", 2e-4);
   expectOne(roughDielectric(facets(kGgx, 0.001f), 1.5f), "roughdielectric", 2e-4);
+}
+
+// Without light in the layer but what goes through it twice: of white paper the share that enters and leaves
+// again, of a mirror that which enters and leaves at the same angle.
+TEST(BsdfSampling, CoatsOfWhiteAndMirrorsReflectWhatPassesThem) {
+  const float eta = 1.5f;
+  const Microfacet f = facets(kGgx, 0.1f);
+  const RoughTransmittance table(f, eta);
+  for (const float cosine : {1.0f, 0.6f, 0.2f}) {
+    const Vec3f wi = direction(cosine, 0.3f);
+    const double t = transmitDielectric(double(cosine), double(eta));
+    const Mean white = sampledAlbedo(coating(eta, diffuse(Rgbf(1))), wi, 40000, 1);
+    EXPECT_NEAR(white.value, 1 - t + t * (1 - fresnelDiffuse(eta)) / (eta * eta),
+                5 * white.error + 1e-5);
+    const Mean mirror = sampledAlbedo(coating(eta, conductor()), wi, 40000, 2);
+    EXPECT_NEAR(mirror.value, 1 - t + t * t, 5 * mirror.error + 1e-5);
+    const double rough = table.evaluate(double(cosine));
+    double through = 0;  // 2 int T c dc
+    for (int i = 0; i < 1000; ++i) {
+      const double c = (i + 0.5) / 1000;
+      through += 2 * table.evaluate(c) * c / 1000;
+    }
+    const auto darkened = [&](const Bsdf& below) {
+      FurtherBsdf b = roughCoating(f, eta, below);
+      std::get<RoughCoat>(b.bsdf).specular = gray(0);
+      return b;
+    };
+    const Mean paper = sampledAlbedo(darkened(diffuse(Rgbf(1))), wi, 40000, 3);
+    EXPECT_NEAR(paper.value, rough * through / (eta * eta), 5 * paper.error + 1e-5);
+    const Mean under = sampledAlbedo(darkened(conductor()), wi, 40000, 4);
+    EXPECT_NEAR(under.value, rough * rough, 5 * under.error + 1e-5);
+  }
 }
 
 // The coat and its base together: uniform light from everywhere comes back whole. For a smooth coat

@@ -30,9 +30,13 @@ Material blended(Material first, Material second, TexturePtr weight, float scale
 
 const std::vector<Bsdf>& bsdfs() {
   static const std::vector<Bsdf> list = {
-      diffuse({0.2f, 0.5f, 0.8f}), roughConductor(facets(kGgx, 0.3f), gold()),
-      plastic({0.6f, 0.3f, 0.1f}, 1.5f, false), roughDielectric(facets(kGgx, 0.3f), 1.5f),
-      conductor(gold())};
+      diffuse({0.2f, 0.5f, 0.8f}),
+      roughConductor(facets(kGgx, 0.3f), gold()),
+      plastic({0.6f, 0.3f, 0.1f}, 1.5f, false),
+      roughDielectric(facets(kGgx, 0.3f), 1.5f),
+      conductor(gold()),
+      coating(1.5f, plastic({0.6f, 0.3f, 0.1f}, 1.4f, false), Rgbf(0.2f)),
+      roughCoating(facets(kGgx, 0.2f), 1.5f, phong(0.3f, 0.5f, 20))};
   return list;
 }
 
@@ -47,6 +51,10 @@ std::vector<MaterialCase> materialCases() {
       {"with mirrors",
        blended(material(2), blended(material(4), material(0), quarter), gray(0.5f), 0.7f)},
       {"masked", masked, true},
+      // Three lobes each.
+      {"coat", material(5)},
+      {"rough coat", material(6, 6, true)},
+      {"blend of coats", blended(material(5), material(6), quarter)},
   };
 }
 

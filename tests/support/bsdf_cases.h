@@ -121,6 +121,34 @@ inline FurtherBsdf ward(WardVariant variant, float alphaU, float alphaV, float k
 }
 inline FurtherBsdf thinDielectric(float eta) { return {interface(ThinDielectric{}, eta)}; }
 
+// `sigma`: of the layer, for its thickness.
+template <class Interface>
+FurtherBsdf coat(Interface interface, Bsdf below, const Rgbf& sigma = Rgbf(0)) {
+  Coat<Interface> b;
+  b.interface = std::move(interface);
+  b.below = std::make_shared<const CoatedBsdf>(std::move(below));
+  if (sigma != Rgbf(0)) b.absorption = constantTexture(sigma);
+  b.thickness = 0.8f;
+  b.specular = gray(1);
+  b.specularWeight = 0.6f;
+  return {b};
+}
+inline FurtherBsdf coating(float eta, Bsdf below, const Rgbf& sigma = Rgbf(0)) {
+  return coat(SmoothInterface{eta}, std::move(below), sigma);
+}
+inline FurtherBsdf roughCoating(Microfacet f, float eta, Bsdf below, const Rgbf& sigma = Rgbf(0)) {
+  return coat(RoughInterface{eta, f, RoughTransmittance::shared(f, eta)}, std::move(below), sigma);
+}
+inline bool isCoat(const Bsdf& b, bool rough = false) {
+  const auto* further = std::get_if<FurtherBsdf>(&b);
+  return further && (std::holds_alternative<RoughCoat>(further->bsdf) ||
+                     (!rough && std::holds_alternative<SmoothCoat>(further->bsdf)));
+}
+// Its table of transmittances is a spline, whose third derivative jumps at its knots.
+inline bool hasSpline(const Bsdf& b) {
+  return std::holds_alternative<RoughPlastic>(b) || isCoat(b, true);
+}
+
 inline Material material(int front, int back = -1, bool twosided = false,
                          TexturePtr opacity = nullptr) {
   Material m;
@@ -172,6 +200,16 @@ inline const std::vector<BsdfCase>& glossyCases() {
       {"ward balanced", ward(WardVariant::kBalanced, 0.1f, 0.3f, 0.4f, 0.4f)},
       {"ward", ward(WardVariant::kWard, 0.3f, 0.15f, 0.5f, 0.2f)},
       {"ward-duer", ward(WardVariant::kDuer, 0.2f, 0.2f, 0.5f, 0.1f)},
+      {"coating of diffuse", coating(1.6f, diffuse({0.2f, 0.5f, 0.8f}), {0.1f, 0.5f, 1.2f})},
+      {"coating of metal", coating(1.5f, roughConductor(facets(kGgx, 0.3f), gold()))},
+      {"coating of plastic", coating(1.4f, plastic({0.6f, 0.3f, 0.1f}, 1.5f, false), Rgbf(0.3f))},
+      {"coating of phong", coating(1.3f, phong(0.3f, 0.5f, 20), {0.1f, 0.2f, 0.4f})},
+      {"coating of a lower index", coating(1 / 1.5f, phong(0.5f, 0.3f, 5), Rgbf(0.2f))},
+      {"roughcoating of diffuse",
+       roughCoating(facets(kGgx, 0.1f), 1.5f, diffuse({0.2f, 0.5f, 0.8f}), {0.6f, 0.2f, 0.1f})},
+      {"roughcoating of ward", roughCoating(facets(kBeckmann, 0.3f), 1.5f,
+                                            ward(WardVariant::kBalanced, 0.3f, 0.4f, 0.4f, 0.4f))},
+      {"roughcoating of a mirror", roughCoating(facets(kPhong, 0.2f), 1.5f, conductor(gold()))},
   };
   return cases;
 }

@@ -99,6 +99,12 @@ f 1//1 4//4 6//6
   </bsdf></bsdf></shape>
 <shape type="rectangle"><transform name="toWorld"><scale value="0.5"/><rotate y="1" angle="-30"/>
   <translate x="1.1" y="0.6" z="2"/></transform><bsdf type="thindielectric"/></shape>
+<shape type="sphere"><float name="radius" value="0.3"/>)" +
+      at + R"(x="-2.6" y="0.3" z="-0.4"/></transform>
+  <bsdf type="coating"><rgb name="sigmaA" value="0.1, 0.3, 0.5"/><bsdf type="plastic"/></bsdf></shape>
+<shape type="sphere"><float name="radius" value="0.3"/>)" +
+      at + R"(x="2.9" y="0.3" z="0.8"/></transform>
+  <bsdf type="roughcoating"><float name="alpha" value="0.2"/><bsdf type="phong"/></bsdf></shape>
 <shape type="disk"><transform name="toWorld"><scale value="0.4"/><rotate y="1" angle="60"/>
   <translate x="-0.2" y="0.5" z="2"/></transform><bsdf type="difftrans"/></shape>
 )" + lights +

@@ -63,6 +63,13 @@ TEST_F(DocumentEdit, RefractiveIndex) {
   EXPECT_EQ(setRefractiveIndex(*document, 1), 0);
   EXPECT_EQ(setRefractiveIndex(*document, 1.0001), 1);
   EXPECT_FLOAT_EQ(bsdf<RoughDielectric>(make()).eta, 1.0001f);
+  load(lit("<bsdf type=\"roughcoating\"><bsdf type=\"diffuse\"/></bsdf>"));
+  EXPECT_EQ(setRefractiveIndex(*document, 1), 0);
+  EXPECT_EQ(setRefractiveIndex(*document, 1.2), 1);
+  EXPECT_EQ(setRoughness(*document, 0.02), 1);
+  const auto coat = std::get<RoughCoat>(bsdf<FurtherBsdf>(make()).bsdf).interface;
+  EXPECT_FLOAT_EQ(coat.eta, 1.2f);
+  EXPECT_FLOAT_EQ(coat.facets.alpha, 0.02f);
 }
 
 TEST_F(DocumentEdit, IdsStayValid) {

@@ -52,7 +52,7 @@ TEST(HostileScene, ChainsOfReferences) {
   EXPECT_EQ(errorOf(textures(40)), "");
   for (const int length : {100, 20000}) {
     EXPECT_NE(errorOf(textures(length)).find("deep"), std::string::npos) << length;
-    for (const char* type : {"twosided", "mask", "bumpmap", "normalmap"})
+    for (const char* type : {"twosided", "mask", "bumpmap", "normalmap", "coating"})
       EXPECT_NE(errorOf(materials(type, length)), "") << type << length;
   }
 }

@@ -101,6 +101,70 @@ TEST_F(SceneMaterials, MistakesInBlendsAreSaid) {
       std::string::npos);
 }
 
+TEST_F(SceneMaterials, CoatsGoOverWhatReflects) {
+  Scene scene;
+  const auto coat = [&](const Material& m, bool back = false) {
+    return std::get<FurtherBsdf>(scene.bsdfs[at(back ? m.back : m.front)]).bsdf;
+  };
+  const std::string plain = R"(<bsdf type="coating">)" + std::string(kRed) + "</bsdf>";
+  const Material smooth = material(plain, scene);
+  EXPECT_FALSE(smooth.twosided);
+  const auto defaults = std::get<SmoothCoat>(coat(smooth));
+  EXPECT_FLOAT_EQ(defaults.interface.eta, 1.5046f / 1.000277f);
+  EXPECT_EQ(defaults.thickness, 1);
+  EXPECT_FALSE(defaults.absorption);
+  EXPECT_EQ(average(*defaults.specular), Rgbf(1));
+  EXPECT_TRUE(std::holds_alternative<Diffuse>(defaults.below->bsdf));
+  EXPECT_EQ(defaults.lobes(), 2);
+
+  const Material given = material(
+      R"(<bsdf type="roughcoating"><string name="distribution" value="ggx"/><float name="alpha" value="0.2"/>
+      <float name="intIOR" value="1.6"/><float name="extIOR" value="1"/><float name="thickness" value="2"/>
+      <rgb name="sigmaA" value="0.1, 0.2, 0.3"/><float name="specularReflectance" value="0.5"/>)" +
+          std::string(kMetal) + "</bsdf>",
+      scene);
+  const auto rough = std::get<RoughCoat>(coat(given));
+  EXPECT_FLOAT_EQ(rough.interface.eta, 1.6f);
+  EXPECT_EQ(rough.interface.facets.distribution, FacetDistribution::kGgx);
+  EXPECT_EQ(rough.interface.facets.alpha, 0.2f);
+  EXPECT_EQ(rough.thickness, 2);
+  EXPECT_EQ(average(*rough.absorption), Rgbf(0.1f, 0.2f, 0.3f));
+  EXPECT_EQ(average(*rough.specular), Rgbf(0.5f));
+  const auto beckmann = std::get<RoughCoat>(
+      coat(material(R"(<bsdf type="roughcoating">)" + std::string(kRed) + "</bsdf>", scene)));
+  EXPECT_EQ(beckmann.interface.facets.distribution, FacetDistribution::kBeckmann);
+  EXPECT_EQ(beckmann.interface.facets.alpha, 0.1f);
+
+  const Material inside = material(R"(<bsdf type="coating"><bsdf type="twosided">)" +
+                                       std::string(kRed) + kMetal + "</bsdf></bsdf>",
+                                   scene);
+  EXPECT_TRUE(inside.twosided);
+  EXPECT_TRUE(std::holds_alternative<Diffuse>(std::get<SmoothCoat>(coat(inside)).below->bsdf));
+  EXPECT_TRUE(
+      std::holds_alternative<RoughConductor>(std::get<SmoothCoat>(coat(inside, true)).below->bsdf));
+  EXPECT_TRUE(material("<bsdf type=\"twosided\">" + plain + "</bsdf>", scene).twosided);
+  // Along dp/du, as what is below has it.
+  EXPECT_TRUE(material(R"(<bsdf type="coating"><bsdf type="ward"><float name="alphaV" value="0.3"/>
+      </bsdf></bsdf>)",
+                       scene)
+                  .frame);
+
+  const auto refuses = [&](const std::string& below, const char* says) {
+    EXPECT_NE(error("<bsdf type=\"coating\">" + below + "</bsdf>").find(says), std::string::npos)
+        << below << error("<bsdf type=\"coating\">" + below + "</bsdf>");
+  };
+  refuses("", "without a bsdf inside");
+  refuses(plain, "no coat yet");
+  refuses(R"(<bsdf type="dielectric"/>)", "does not let light through");
+  refuses("<bsdf type=\"mask\">" + std::string(kRed) + "</bsdf>", "the mask goes around");
+  refuses("<bsdf type=\"blendbsdf\">" + std::string(kRed) + kMetal + "</bsdf>", "no blend");
+  refuses(R"(<bsdf type="bumpmap"><texture type="checkerboard"/>)" + std::string(kRed) + "</bsdf>",
+          "without a bump or normal map");
+  refuses(
+      R"(<float name="intIOR" value="1.3"/><float name="extIOR" value="1.3"/>)" + std::string(kRed),
+      "must differ");
+}
+
 TEST_F(SceneMaterials, MapsGoAroundAndIntoTwosided) {
   Scene scene;
   const std::string bump =

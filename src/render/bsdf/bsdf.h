@@ -77,6 +77,14 @@ namespace h2mc {
 using Bsdf = std::variant<Diffuse, Phong, RoughConductor, RoughDielectric, Conductor, Dielectric,
                           Plastic, RoughPlastic, FurtherBsdf>;
 
+// What is under a coat: reflects only, and is no coat.
+struct CoatedBsdf {
+  explicit CoatedBsdf(Bsdf below);
+  Bsdf bsdf;
+  int lobes;
+  int cosineLobe;  // the one that sampleCosine() draws, whatever the direction; -1: none
+};
+
 struct Material;
 
 // Two materials by shares: scale ((1 - w) first + w second), w in [0, 1] by texture. More than two are a
@@ -123,7 +131,11 @@ struct BsdfPlugin {
   std::span<const Parameter> parameters;
   Bsdf (*create)(const Properties&);  // null for what makes no BSDF of its own
   int nestedBsdfs = 0;
+  Bsdf (*coat)(const Properties&,
+               const Bsdf& below) = nullptr;  // of those that make one of another
 };
 std::span<const BsdfPlugin> bsdfPlugins();
 
 }  // namespace h2mc
+
+#include "render/bsdf/coat_inl.h"  // needs Bsdf

@@ -113,6 +113,18 @@ constexpr Parameter kWardParameters[] = {
     kDiffuseReflectance,
     {"specularReflectance", kTexture, "0.2", "reflectance of the glossy part"},
     kConserve};
+constexpr Parameter kThickness = {"thickness", kNumber, "1",
+                                  "of the layer, 0 to 10000: what sigmaA's unit of length is"};
+constexpr Parameter kSigmaA = {"sigmaA", kTexture, "0",
+                               "absorption in the layer per unit of length"};
+constexpr Parameter kCoatIndex = {
+    "intIOR", kString,  "bk7", "refractive index of the layer: a number from 0.01 to 100 or a name",
+    "",       "int_ior"};
+constexpr Parameter kCoatingParameters[] = {kCoatIndex, kExteriorIndex, kThickness,
+                                            kSigmaA,    kSpecular,      kConserve};
+constexpr Parameter kRoughCoatingParameters[] = {kDistribution,  kAlpha,         kCoatIndex,
+                                                 kExteriorIndex, kThickness,     kSigmaA,
+                                                 kSpecular,      kSampleVisible, kConserve};
 constexpr Parameter kBumpParameters[] = {
     {"texture", kTexture, "", "the height, by its luminance, in the scene's units", "", "", false,
      true, true},
@@ -352,6 +364,37 @@ Bsdf createWard(const Properties& p) {
   return FurtherBsdf{b};
 }
 
+template <class Interface>
+Bsdf createCoat(const Properties& p, const Bsdf& below, Interface interface) {
+  constexpr float kThickest = 1e4f, kDarkest = 1e4f;
+  Coat<Interface> b;
+  b.interface = std::move(interface);
+  b.below = std::make_shared<const CoatedBsdf>(below);
+  b.thickness = numberIn(p, "thickness", 0, kThickest);
+  const TexturePtr sigma = textureUpTo(p, "sigmaA", kDarkest);
+  if (largest(maximum(*sigma)) * b.thickness > 0) b.absorption = sigma;
+  b.specular = textureUpTo(p, "specularReflectance", kLargestFactor);
+  b.specularScale = energyScale(p, "specularReflectance", maximum(*b.specular));
+  // Both lobes are drawn if there are both: what is below may be brighter somewhere than its means say.
+  const Rgbf left = glm::exp(average(*sigma) * (-2 * b.thickness));
+  const Rgbf base = std::visit([](const auto& inner) { return inner.albedo(); }, below);
+  const float share = specularWeight(average(*b.specular) * b.specularScale, base * left);
+  b.specularWeight = share > 0 ? std::clamp(share, 0.05f, 0.95f) : 0;
+  return FurtherBsdf{b};
+}
+
+Bsdf createCoating(const Properties& p, const Bsdf& below) {
+  return createCoat(p, below, SmoothInterface{relativeIndex(p, true)});
+}
+
+Bsdf createRoughCoating(const Properties& p, const Bsdf& below) {
+  RoughInterface rough;
+  rough.facets = {readDistribution(p), roughness(p, "alpha")};
+  rough.eta = relativeIndex(p, true);
+  rough.transmittance = RoughTransmittance::shared(rough.facets, rough.eta);
+  return createCoat(p, below, std::move(rough));
+}
+
 constexpr int kMostMixed = kDeepestBlend + 1;
 
 constexpr BsdfPlugin kPlugins[] = {
@@ -374,6 +417,10 @@ constexpr BsdfPlugin kPlugins[] = {
      createRoughDiffuse},
     {"ward", "Anisotropic gloss over a diffuse base [Ward 1992]", kWardParameters, createWard},
     {"null", "Nothing: light goes straight on", {}, nullptr},
+    {"coating", "A smooth dielectric layer over the nested BSDF [Weidlich and Wilkie 2007]",
+     kCoatingParameters, nullptr, 1, createCoating},
+    {"roughcoating", "The same with a rough surface", kRoughCoatingParameters, nullptr, 1,
+     createRoughCoating},
     {"twosided", "The nested BSDF on both sides, or one each for front and back", {}, nullptr, 2},
     {"mask", "The nested BSDF with holes", kMaskParameters, nullptr, 1},
     {"bumpmap", "The nested BSDF on a surface with a height", kBumpParameters, nullptr, 1},

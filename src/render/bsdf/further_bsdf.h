@@ -5,6 +5,7 @@
 
 #include <variant>
 
+#include "render/bsdf/coat.h"
 #include "render/bsdf/diffuse_transmitter.h"
 #include "render/bsdf/rough_diffuse.h"
 #include "render/bsdf/thin_dielectric.h"
@@ -14,8 +15,8 @@ namespace h2mc {
 
 // Every member as bsdf.h lists it.
 struct FurtherBsdf {
-  static constexpr int kLobes = 2;
-  std::variant<ThinDielectric, DiffuseTransmitter, RoughDiffuse, Ward> bsdf;
+  static constexpr int kLobes = 3;
+  std::variant<ThinDielectric, DiffuseTransmitter, RoughDiffuse, Ward, SmoothCoat, RoughCoat> bsdf;
 
   int lobes() const {
     return std::visit([](const auto& b) { return lobesOf(b); }, bsdf);

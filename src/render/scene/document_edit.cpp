@@ -180,8 +180,8 @@ double largestColor(const SceneDocument& document, const XmlElement& element,
 
 int setRoughness(SceneDocument& document, double alpha) {
   return edit(document, [&](XmlElement& element) {
-    if (element.name != "bsdf" ||
-        !isOneOf(typeOf(element), {"roughconductor", "roughdielectric", "roughplastic"}))
+    if (element.name != "bsdf" || !isOneOf(typeOf(element), {"roughconductor", "roughdielectric",
+                                                             "roughplastic", "roughcoating"}))
       return false;
     removeParameter(element, "alphaU");
     removeParameter(element, "alphaV");
@@ -200,9 +200,10 @@ int setRefractiveIndex(SceneDocument& document, double index) {
   return edit(document, [&](XmlElement& element) {
     if (element.name != "bsdf") return false;
     const std::string type = typeOf(element);
-    const bool rough = isOneOf(type, {"roughdielectric", "roughplastic"});
-    if (!rough && !isOneOf(type, {"dielectric", "plastic"})) return false;
-    if (rough && index == 1) return false;
+    const bool differs =
+        isOneOf(type, {"roughdielectric", "roughplastic", "coating", "roughcoating"});
+    if (!differs && !isOneOf(type, {"dielectric", "plastic"})) return false;
+    if (differs && index == 1) return false;
     // Their other spelling is no snake_case.
     for (XmlElement& child : element.children)
       for (XmlAttribute& attribute : child.attributes) {

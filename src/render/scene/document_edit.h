@@ -19,8 +19,8 @@ int setRoughness(SceneDocument& document, double alpha);
 // exponent of every phong BSDF. Precondition: exponent >= 0.
 int setPhongExponent(SceneDocument& document, double exponent);
 
-// Refractive index inside of every BSDF with a dielectric interface, with 1 outside. Rough ones do not
-// exist without a difference: at index 1 they stay as they are. Precondition: index > 0.
+// Refractive index inside of every BSDF with a dielectric interface, with 1 outside. Rough ones and coats
+// do not exist without a difference: at index 1 they stay as they are. Precondition: index > 0.
 int setRefractiveIndex(SceneDocument& document, double index);
 
 // Multiplies what every light emits. The picture of an area light can't be multiplied: it stays.

@@ -15,8 +15,9 @@ constexpr const char* kLights[] = {"area",     "point",  "spot", "directional",
                                    "constant", "envmap", "sun"};
 // Bsdf's, then those of FurtherBsdf, its last alternative.
 constexpr const char* kBsdfs[] = {
-    "diffuse", "phong",        "roughconductor", "roughdielectric", "conductor",    "dielectric",
-    "plastic", "roughplastic", "thindielectric", "difftrans",       "roughdiffuse", "ward"};
+    "diffuse",      "phong",   "roughconductor", "roughdielectric", "conductor",
+    "dielectric",   "plastic", "roughplastic",   "thindielectric",  "difftrans",
+    "roughdiffuse", "ward",    "coating",        "roughcoating"};
 constexpr std::size_t kFurther = std::variant_size_v<Bsdf> - 1;
 
 static_assert(std::size(kShapes) == std::variant_size_v<decltype(Shape::geometry)>);

@@ -49,6 +49,12 @@ void collectIndices(std::span<const Bsdf> bsdfs, const Material& material,
   }
 }
 
+bool isCoat(const Bsdf& bsdf) {
+  const auto* further = std::get_if<FurtherBsdf>(&bsdf);
+  return further && (std::holds_alternative<SmoothCoat>(further->bsdf) ||
+                     std::holds_alternative<RoughCoat>(further->bsdf));
+}
+
 // Makes the material of one element that others are inside of.
 class NestedReader {
  public:
@@ -66,6 +72,7 @@ class NestedReader {
   Material twosided() const;
   Material mask() const;
   Material mapped(FrameMap::Kind kind) const;
+  Material coated(const BsdfPlugin& plugin) const;
   Material blend() const;
   Material mixture() const;
 
@@ -152,6 +159,25 @@ Material NestedReader::mapped(FrameMap::Kind kind) const {
   return material;
 }
 
+Material NestedReader::coated(const BsdfPlugin& plugin) const {
+  const Material below = nested(0);
+  if (below.blend) reject(0, "expected a bsdf that is no blend or mixture");
+  if (below.opacity) reject(0, "expected a bsdf that is not a mask: the mask goes around");
+  if (isBent(below)) reject(0, "expected a bsdf without a bump or normal map");
+  if (transmits(bsdfs(), below)) reject(0, "expected a bsdf that does not let light through");
+  if (isCoat(bsdfs()[at(below.front)])) reject(0, "expected a bsdf that has no coat yet");
+  const auto over = [&](int index) {
+    Bsdf coat = createLocated(
+        properties_, [&](const Properties& p) { return plugin.coat(p, bsdfs()[at(index)]); });
+    context_.scene.bsdfs.push_back(std::move(coat));
+    return static_cast<int>(bsdfs().size()) - 1;
+  };
+  Material material = below;
+  material.front = over(below.front);
+  if (below.twosided) material.back = below.back == below.front ? material.front : over(below.back);
+  return material;
+}
+
 MaterialPtr NestedReader::part(int i) const {
   Material part = nested(i);
   if (part.opacity) reject(i, "expected a bsdf that is not a mask: the mask goes around");
@@ -231,6 +257,7 @@ Material NestedReader::mixture() const {
 
 Material makeNested(ReaderContext& context, const XmlElement& element, const BsdfPlugin& plugin) {
   const NestedReader reader(context, element, plugin);
+  if (plugin.coat) return reader.coated(plugin);
   if (plugin.name == "mask") return reader.mask();
   if (plugin.name == "bumpmap") return reader.mapped(FrameMap::Kind::kBump);
   if (plugin.name == "normalmap") return reader.mapped(FrameMap::Kind::kNormal);
