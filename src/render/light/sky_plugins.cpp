@@ -40,15 +40,15 @@ constexpr Parameter kStretch{
 constexpr Parameter kExtend{"extend", ParameterType::kBoolean, "false",
                             "the horizon's light goes on below it, fading towards the nadir"};
 constexpr Parameter kResolution{"resolution", ParameterType::kInteger, "512",
-                                "width in pixels of the picture that stands for the sky"};
+                                "width of the picture that stands for the sky, 8 to 2048 pixels"};
 constexpr Parameter kScale{"scale", ParameterType::kNumber, "1", "factor on the radiance"};
 constexpr Parameter kSunScale{"sunScale", ParameterType::kNumber, "",
                               "factor on the sun's radiance; scale"};
 constexpr Parameter kSkyScale{"skyScale", ParameterType::kNumber, "",
                               "factor on the sky's radiance; scale"};
 constexpr Parameter kSunRadiusScale{"sunRadiusScale", ParameterType::kNumber, "1",
-                                    "factor on the sun's radius, which leaves its light as much as "
-                                    "it is; 0: all of it from one direction"};
+                                    "factor on the sun's radius, up to 300, which leaves its light "
+                                    "as much as it is; below 0.001: all of it from one direction"};
 constexpr Parameter kSkyToWorld{"toWorld", ParameterType::kTransform, "",
                                 "from the sky, where +y is up, to the world"};
 constexpr Parameter kWeight{"samplingWeight",
@@ -123,13 +123,17 @@ float scaleOf(const Properties& p, std::string_view own) {
   return scale;
 }
 
+void requireFinite(const Properties& p, const Rgbf& radiance) {
+  if (!ad::isFinite(radiance)) p.fail("scale", "times the model's radiance it is beyond float");
+}
+
 Light makeSky(const Properties& p, float scale) {
   const EnvironmentTransform transform = environmentTransform(p);
   const Rgbf albedo = p.color("albedo");
   if (std::max({albedo.x, albedo.y, albedo.z}) > 1) p.fail("albedo", "expected values from 0 to 1");
   const double stretch = numberIn(p, "stretch", 1, 2);
   const bool extend = p.boolean("extend");
-  const int width = integerIn(p, "resolution", 8, 8192), height = width / 2;
+  const int width = integerIn(p, "resolution", 8, 2048), height = width / 2;
   const SkyModel model(numberIn(p, "turbidity", 1, 10), albedo, sunDirection(p, transform));
   Image image(width, height);
   for (int y = 0; y < height; ++y) {
@@ -147,6 +151,7 @@ Light makeSky(const Properties& p, float scale) {
       image.at(x, y) = model.radiance(directionAt(theta, 2 * kPiD * (x + 0.5) / width)) *
                        static_cast<float>(fade);
   }
+  for (const Rgbf& pixel : image.pixels) requireFinite(p, pixel * scale);
   if (transform.stretches) image = stretched(image, transform.stretch);
   return EnvmapLight(image, scale, glm::mat3(transform.rotation));
 }
@@ -159,17 +164,21 @@ Light makeSun(const Properties& p, float scale) {
   const glm::dvec3 direction = glm::normalize(
       transform.matrix() * directionAt(zenith * numberIn(p, "stretch", 1, 2), azimuth));
   const Rgbf radiance = sunRadiance(zenith, numberIn(p, "turbidity", 1, 10)) * scale;
+  requireFinite(p, radiance);
   const auto capOf = [](double radius) { return 2 * std::pow(std::sin(radius / 2), 2); };
-  constexpr float kLargest = 300;  // nearly half the sky
-  const double radius = numberIn(p, "sunRadiusScale", 0, kLargest) * kSunRadius;
-  if (radius == 0) {
+  constexpr float kLargest = 300;     // nearly half the sky
+  constexpr double kSmallest = 1e-3;  // an arc second: nobody sees that it is a disc
+  const double radiusScale = numberIn(p, "sunRadiusScale", 0, kLargest);
+  const double radius = radiusScale * kSunRadius;
+  if (radiusScale < kSmallest) {
     DirectionalLight light;
     light.direction = -Vec3f(direction);
     light.irradiance = radiance * static_cast<float>(2 * kPiD * capOf(kSunRadius));
     return light;
   }
-  return SunLight(direction, radius,
-                  radiance * static_cast<float>(capOf(kSunRadius) / capOf(radius)));
+  const Rgbf onDisc = radiance * static_cast<float>(capOf(kSunRadius) / capOf(radius));
+  requireFinite(p, onDisc);
+  return SunLight(direction, radius, onDisc);
 }
 
 constexpr std::array kPlugins{
