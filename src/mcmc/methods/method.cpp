@@ -18,7 +18,7 @@ std::span<const Parameter> sharedParameters() {
       {"chains", ParameterType::kInteger, "512", "independent Markov chains"},
       {"bootstrapSamples", ParameterType::kInteger, "0",
        "bidirectional samples that place the chains and give the first estimate of the brightness; "
-       "0: 100000, and more in a long render"},
+       "0: 100000, more in a long render and fewer in one of some seconds"},
       {"largeStepProbability", ParameterType::kNumber, "0.2", "share of large steps"},
       {"largeStep", ParameterType::kString, "bidirectional",
        "what a large step proposes: a connection of a whole bidirectional sample, or one technique",

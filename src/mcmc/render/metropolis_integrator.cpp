@@ -33,6 +33,9 @@ long long roundOf(long long chains) {
 // more samples there are, the smaller that share is.
 constexpr long long kLeastBootstrap = 100000, kMostBootstrap = 4000000;
 constexpr double kBootstrapOfTime = 0.04, kBootstrapOfMutations = 0.02;
+// Where the time is too short for the least number, what it may take of it, after so many that tell how long they take.
+constexpr double kShortBootstrapOfTime = 0.15;
+constexpr long long kTrialBootstrap = 4096;
 
 // One render: direct lighting and the chains take turns.
 class MetropolisRender final : public RenderInProgress {
@@ -84,8 +87,9 @@ class MetropolisRender final : public RenderInProgress {
     return asked == 0 && !timed() ? options_.integer("mutationsPerPixel") : asked;
   }
   RenderRequest directRequest() const;
-  // `seconds`: what kLeastBootstrap of them took.
+  // `seconds`: what one of them takes.
   long long bootstrapSamples(double seconds) const;
+  void makeBootstrap();
   void extendDirect(std::size_t mark);
   void balanceDirect(const ChainEnsemble& chains);
   void endEpoch(ChainEnsemble& chains);
@@ -139,11 +143,35 @@ RenderRequest MetropolisRender::directRequest() const {
 }
 
 long long MetropolisRender::bootstrapSamples(double seconds) const {
-  const double samples =
-      timed() ? kBootstrapOfTime * request_.budget.seconds / seconds * kLeastBootstrap
-              : kBootstrapOfMutations * static_cast<double>(mutationsPerPixel_) * pixels();
-  return std::llround(
-      std::clamp<double>(samples, kLeastBootstrap, static_cast<double>(kMostBootstrap)));
+  constexpr auto kLeast = static_cast<double>(kLeastBootstrap),
+                 kMost = static_cast<double>(kMostBootstrap);
+  if (!timed())
+    return std::llround(std::clamp(
+        kBootstrapOfMutations * static_cast<double>(mutationsPerPixel_) * pixels(), kLeast, kMost));
+  const double affordable = request_.budget.seconds / seconds;
+  const double least = std::min(kLeast, kShortBootstrapOfTime * affordable);
+  return std::llround(std::clamp(kBootstrapOfTime * affordable, least, kMost));
+}
+
+void MetropolisRender::makeBootstrap() {
+  const int wanted = options_.integer("bootstrapSamples");
+  const long long first = restored_    ? bootstrapCount_
+                          : wanted > 0 ? wanted
+                          : timed()    ? kTrialBootstrap
+                                       : kLeastBootstrap;
+  const double before = clock_.wallSeconds();
+  bootstrap_.emplace(scene_, minLength_, maxLength_, first, request_.seed, request_.threads,
+                     request_.stop);
+  if (restored_) return;
+  const double each = (clock_.wallSeconds() - before) / static_cast<double>(first);
+  bootstrapCount_ = wanted > 0 ? wanted : std::max(first, bootstrapSamples(each));
+  bootstrap_->extendTo(bootstrapCount_);
+  // Light that is seldom found must be found first.
+  while (wanted <= 0 && !stopped() && !(bootstrap_->luminance().mean() > 0) &&
+         bootstrapCount_ < kLeastBootstrap) {
+    bootstrapCount_ = std::min(2 * bootstrapCount_, kLeastBootstrap);
+    bootstrap_->extendTo(bootstrapCount_);
+  }
 }
 
 // Direct lighting keeps pace with the chains: up to mark i it gets what a render that ends there would
@@ -294,7 +322,7 @@ RenderResult MetropolisRender::run() {
   const int wanted = options_.integer("bootstrapSamples");
   // At most: where samples take no time.
   requireMetropolisMemory(scene_, options_, request_, maxLength_,
-                          wanted > 0 ? wanted : bootstrapSamples(1e-9));
+                          wanted > 0 ? wanted : bootstrapSamples(1e-14));
   if (request_.resume) archiveRender(*request_.resume);
   restored_ = stage_ != Stage::kDirect;
   if (stage_ == Stage::kDirect) {
@@ -302,12 +330,7 @@ RenderResult MetropolisRender::run() {
     extendDirect(0);
   }
   if (minLength_ > maxLength_) return directAlone();
-  const double before = clock_.wallSeconds();
-  bootstrap_.emplace(scene_, minLength_, maxLength_, wanted > 0 ? wanted : kLeastBootstrap,
-                     request_.seed, request_.threads, request_.stop);
-  if (!restored_)
-    bootstrapCount_ = wanted > 0 ? wanted : bootstrapSamples(clock_.wallSeconds() - before);
-  bootstrap_->extendTo(bootstrapCount_);
+  makeBootstrap();
   if (bootstrap_->luminance().mean() > 0) return withChains();
   if (!stopped())
     spdlog::warn("no light arrives through paths of {} to {} edges: nothing to sample there",

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "render/geometry/placed_mesh.h"
+
 namespace h2mc {
 namespace {
 
@@ -66,27 +68,21 @@ void addTriangles(const std::vector<glm::uvec3>& triangles, const Vec3f* positio
   }
 }
 
-// Of an instance: as if its box were one triangle for each kind of length. Embree takes rays into the mesh's space in
+// Of an instance: as if it had three triangles. Embree takes rays into the mesh's space in
 // float, where a transform that stretches loses more of their digits.
 Extent extentOf(const SharedMesh& shared, std::span<const Placement> placements) {
   Extent extent;
-  extent.longest = {0, 0};
-  extent.tilted = {true, true};
+  extent.longest = {0, 0, 0};
+  extent.tilted = {true, true, true};
   for (const Placement& placement : placements) {
-    const glm::dmat3 m(placement.toWorld()), inverse = glm::inverse(m);
-    double stretch = 0, shrink = 0;
-    for (int i = 0; i < 3; ++i) {
-      stretch = std::max(stretch, glm::length(m[i]));
-      shrink = std::max(shrink, glm::length(inverse[i]));
-    }
-    for (const Vec3f& corner : {shared.low, shared.high})
-      extent.coordinate = std::max(extent.coordinate,
-                                   largestCoordinate(Vec3f(placement.point(glm::dvec3(corner)))));
-    extent.longest[0] =
-        std::max(extent.longest[0], shared.medianEdge * static_cast<float>(stretch));
-    extent.longest[1] =
-        std::max(extent.longest[1], shared.longestEdge * static_cast<float>(stretch));
-    extent.condition = std::max(extent.condition, static_cast<float>(stretch * shrink));
+    const Stretch stretch = stretchOf(placement);
+    const auto longest = static_cast<float>(stretch.longest);
+    for (const glm::dvec3& corner : placedCorners(shared, placement))
+      extent.coordinate = std::max(extent.coordinate, largestCoordinate(Vec3f(corner)));
+    extent.longest[0] = std::max(extent.longest[0], shared.medianEdge * longest);
+    extent.longest[1] = extent.longest[0];  // the median is that of the mesh
+    extent.longest[2] = std::max(extent.longest[2], shared.longestEdge * longest);
+    extent.condition = std::max(extent.condition, static_cast<float>(stretch.condition));
   }
   return extent;
 }

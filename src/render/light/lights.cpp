@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/image/image_io.h"
+#include "render/light/common_parameters.h"
 #include "render/light/environment_transform.h"
 #include "render/light/light.h"
 #include "render/light/sky_plugins.h"
@@ -17,22 +18,16 @@
 namespace h2mc {
 namespace {
 
-constexpr Parameter kSamplingWeight{"samplingWeight",
-                                    ParameterType::kNumber,
-                                    "1",
-                                    "how often the light is chosen in other renderers",
-                                    "",
-                                    "",
-                                    true};
 constexpr Parameter kToWorld{"toWorld", ParameterType::kTransform, "",
                              "from the light to the world"};
 
 constexpr std::array kAreaParameters{
     Parameter{"radiance", ParameterType::kTexture, "1", "radiance in every direction"},
-    kSamplingWeight};
+    kSamplingWeightParameter};
 constexpr std::array kPointParameters{
     kToWorld, Parameter{"position", ParameterType::kPoint, "", "where it is, instead of toWorld"},
-    Parameter{"intensity", ParameterType::kColor, "1", "flux per solid angle"}, kSamplingWeight};
+    Parameter{"intensity", ParameterType::kColor, "1", "flux per solid angle"},
+    kSamplingWeightParameter};
 constexpr std::array kSpotParameters{
     kToWorld,
     Parameter{"intensity", ParameterType::kColor, "1", "flux per solid angle in the beam"},
@@ -42,16 +37,16 @@ constexpr std::array kSpotParameters{
               "degrees from the axis to where the intensity starts to fall; 3/4 of cutoffAngle"},
     Parameter{"texture", ParameterType::kTexture, "",
               "a factor, projected: the whole of it at the cutoff; for angles below 90 degrees"},
-    kSamplingWeight};
+    kSamplingWeightParameter};
 constexpr std::array kDirectionalParameters{
     kToWorld,
     Parameter{"direction", ParameterType::kVector, "",
               "the way the light goes, instead of toWorld"},
     Parameter{"irradiance", ParameterType::kColor, "1", "on a surface across the direction"},
-    kSamplingWeight};
+    kSamplingWeightParameter};
 constexpr std::array kConstantParameters{
     Parameter{"radiance", ParameterType::kColor, "1", "radiance from every direction"},
-    kSamplingWeight};
+    kSamplingWeightParameter};
 constexpr std::array kEnvmapParameters{
     Parameter{"filename", ParameterType::kString, "", "picture in latitude and longitude"},
     Parameter{"scale", ParameterType::kNumber, "1", "factor on the radiance"},
@@ -62,7 +57,7 @@ constexpr std::array kEnvmapParameters{
               true},
     Parameter{"misCompensation", ParameterType::kBoolean, "false", "how other renderers sample it",
               "", "", true},
-    kSamplingWeight};
+    kSamplingWeightParameter};
 
 Vec3f transformVector(const Mat4& m, const Vec3f& v) { return glm::mat3(m) * v; }
 

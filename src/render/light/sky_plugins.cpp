@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/light/common_parameters.h"
 #include "render/light/environment_transform.h"
 #include "render/light/sky_model.h"
 #include "render/scene/properties.h"
@@ -51,30 +52,39 @@ constexpr Parameter kSunRadiusScale{"sunRadiusScale", ParameterType::kNumber, "1
                                     "as much as it is; below 0.001: all of it from one direction"};
 constexpr Parameter kSkyToWorld{"toWorld", ParameterType::kTransform, "",
                                 "from the sky, where +y is up, to the world"};
-constexpr Parameter kWeight{"samplingWeight",
-                            ParameterType::kNumber,
-                            "1",
-                            "how often the light is chosen in other renderers",
-                            "",
-                            "",
-                            true};
 constexpr Parameter kSunResolution{"resolution", ParameterType::kInteger,
                                    "512",        "of a picture that other renderers make of it",
                                    "",           "",
                                    true};
 
-constexpr std::array kSkyParameters{kTurbidity, kAlbedo,     kSunDirection, kYear,   kMonth,
-                                    kDay,       kHour,       kMinute,       kSecond, kLatitude,
-                                    kLongitude, kTimezone,   kStretch,      kExtend, kResolution,
-                                    kScale,     kSkyToWorld, kWeight};
-constexpr std::array kSunParameters{
-    kTurbidity, kSunDirection,   kYear,       kMonth,         kDay,      kHour,
-    kMinute,    kSecond,         kLatitude,   kLongitude,     kTimezone, kStretch,
-    kScale,     kSunRadiusScale, kSkyToWorld, kSunResolution, kWeight};
-constexpr std::array kSunskyParameters{
-    kTurbidity,  kAlbedo, kSunDirection, kYear,      kMonth,          kDay,        kHour,
-    kMinute,     kSecond, kLatitude,     kLongitude, kTimezone,       kStretch,    kExtend,
-    kResolution, kScale,  kSunScale,     kSkyScale,  kSunRadiusScale, kSkyToWorld, kWeight};
+constexpr std::array kSkyParameters{
+    kTurbidity, kAlbedo, kSunDirection, kYear,     kMonth,      kDay,
+    kHour,      kMinute, kSecond,       kLatitude, kLongitude,  kTimezone,
+    kStretch,   kExtend, kResolution,   kScale,    kSkyToWorld, kSamplingWeightParameter};
+constexpr std::array kSunParameters{kTurbidity,
+                                    kSunDirection,
+                                    kYear,
+                                    kMonth,
+                                    kDay,
+                                    kHour,
+                                    kMinute,
+                                    kSecond,
+                                    kLatitude,
+                                    kLongitude,
+                                    kTimezone,
+                                    kStretch,
+                                    kScale,
+                                    kSunRadiusScale,
+                                    kSkyToWorld,
+                                    kSunResolution,
+                                    kSamplingWeightParameter};
+constexpr std::array kSunskyParameters{kTurbidity,      kAlbedo,     kSunDirection,
+                                       kYear,           kMonth,      kDay,
+                                       kHour,           kMinute,     kSecond,
+                                       kLatitude,       kLongitude,  kTimezone,
+                                       kStretch,        kExtend,     kResolution,
+                                       kScale,          kSunScale,   kSkyScale,
+                                       kSunRadiusScale, kSkyToWorld, kSamplingWeightParameter};
 
 // Where the sky's own frame puts the sun: unit, above the horizon.
 glm::dvec3 sunDirection(const Properties& p, const EnvironmentTransform& transform) {

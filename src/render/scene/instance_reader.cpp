@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "render/geometry/placed_mesh.h"
 #include "render/scene/element_properties.h"
 #include "render/scene/part_readers.h"
 #include "render/scene/value_text.h"
@@ -152,13 +153,7 @@ std::vector<Placement> stepsOf(const Properties& p, const Shape& shape, double& 
 // What float rays in the group's space can be trusted with.
 void checkPlacement(const Properties& p, const Placement& placement) {
   constexpr double kWorst = 1e5;
-  const glm::dmat3 m(placement.toWorld()), inverse = glm::inverse(m);
-  double stretch = 0, shrink = 0;
-  for (int i = 0; i < 3; ++i) {
-    stretch = std::max(stretch, glm::length(m[i]));
-    shrink = std::max(shrink, glm::length(inverse[i]));
-  }
-  if (!(stretch * shrink <= kWorst))
+  if (!(stretchOf(placement).condition <= kWorst))
     p.fail("toWorld", fmt::format("the transformation flattens the group: expected scales that "
                                   "differ by a factor of up to {:g}",
                                   kWorst));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/geometry/placed_mesh.h"
 #include "render/geometry/ray_tracer.h"
 #include "render/path/light_use.h"
 
@@ -32,9 +33,7 @@ struct Box {
     for (const Placement& step : instance.steps) add(*instance.shared, step);
   }
   void add(const SharedMesh& shared, const Placement& placement) {
-    const Vec3f ends[2] = {shared.low, shared.high};
-    for (int corner = 0; corner < 8; ++corner)
-      add(placement.point({ends[corner & 1].x, ends[corner >> 1 & 1].y, ends[corner >> 2].z}));
+    for (const glm::dvec3& corner : placedCorners(shared, placement)) add(corner);
   }
   void add(const MovingDisk& disk) {
     for (const Disk& step : disk.steps) add(step);
