@@ -21,23 +21,34 @@ class Resume(_h2mc.Test):
         option = "-s" if integrator in ("path", "bdpt") else "-m"
         return ["render", "scene.xml", "-i", _h2mc.quick(integrator), option, budget, *more]
 
-    def interrupt(self, command, seconds):
+    def interrupt(self, command, seconds=0, until=lambda: True):
+        """Ctrl-C after so many seconds, and not before until() is true."""
         process = subprocess.Popen([_h2mc.BINARY, *map(str, command)], cwd=self.folder, stderr=subprocess.PIPE,
                                    text=True)
         self.addCleanup(process.kill)
         _h2mc.wait_for_handler(process)
         time.sleep(seconds)
+        late = time.monotonic() + 60
+        while not until() and time.monotonic() < late:
+            time.sleep(0.05)
         process.send_signal(signal.SIGINT)
         _, messages = process.communicate(timeout=60)
         return process.returncode, messages
 
     def test_ctrl_c(self):
-        command = self.arguments("h2mc", 20000, "-o", "a.exr", "--checkpoint", "a.state")
+        command = self.arguments("h2mc", 20000, "-o", "a.exr", "--checkpoint", "a.state", "--every", 0.2)
         code, messages = self.interrupt(command, 1)
         self.assertEqual(code, 130, messages)
         self.assertIn('--resume goes on from "a.state"', messages)
         first = self.picture("a.exr")[0]["samples"]
-        code, messages = self.interrupt([*command, "--resume"], 1)
+        # However busy the machine is: once it has saved several times what it went on to.
+        saved = set()
+
+        def went_on():
+            saved.add(os.stat(self.path("a.state")).st_mtime_ns)
+            return len(saved) > 4
+
+        code, messages = self.interrupt([*command, "--resume"], until=went_on)
         self.assertEqual(code, 130, messages)
         self.assertGreater(self.picture("a.exr")[0]["samples"], first)
 
