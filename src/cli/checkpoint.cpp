@@ -131,7 +131,11 @@ Archive& Checkpoint::open() {
   stream_.seekg(0);
   archive_ = std::make_unique<Archive>(stream_, content);
   std::string text;
-  (*archive_)(magic, text);
+  try {
+    (*archive_)(magic, text);
+  } catch (const ArchiveError&) {
+    throw fail("is damaged");
+  }
   const json there = json::parse(text, nullptr, false);
   if (!there.is_object()) throw fail("is damaged");
   const std::vector<std::string> different = differences(there, identity_);

@@ -69,7 +69,7 @@ class Archive {
   }
   template <class T>
   void one(std::optional<T>& value) {
-    bool there = value.has_value();
+    std::uint8_t there = value.has_value();  // a byte that is read may be no bool
     one(there);
     if (reading() && there) value.emplace();
     if (reading() && !there) value.reset();

@@ -131,6 +131,7 @@ Geometry placedGeometry(const Shape& shape, const std::vector<Placement>& steps,
                      static_cast<double>(sphere.radius));
   toGroup[3] = glm::dvec4(glm::dvec3(sphere.center), 1);
   std::vector<Placement> ofUnit;
+  ofUnit.reserve(steps.size());
   for (const Placement& step : steps) ofUnit.emplace_back(Mat4(step.toWorld() * toGroup));
   return instanceOf(sharedUnitSphere(sphere.flipNormals), std::move(ofUnit));
 }
