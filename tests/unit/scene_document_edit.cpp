@@ -147,6 +147,31 @@ TEST_F(DocumentEdit, OthersStayWhereTheyAre) {
   EXPECT_EQ(make().origin, glm::dvec3(0));
 }
 
+// A factor that is not given is not one of 1.
+TEST_F(DocumentEdit, ScalesOfEnvironmentsAreBrightness) {
+  const auto brightest = [&](const std::string& emitter) {
+    load(kCamera + emitter + "<shape type=\"sphere\"/>\n");
+    const double before = brightestLight(*document);
+    scaleRadiance(*document, 8);
+    EXPECT_DOUBLE_EQ(brightestLight(*document), 8 * before) << emitter;
+    return before;
+  };
+  const auto light = [](const std::string& type, const std::string& numbers) {
+    return "<emitter type=\"" + type + "\">" + numbers + "</emitter>";
+  };
+  const auto number = [](const std::string& name, const std::string& value) {
+    return "<float name=\"" + name + "\" value=\"" + value + "\"/>";
+  };
+  for (const char* type : {"envmap", "sky", "sun", "sunsky"}) {
+    EXPECT_DOUBLE_EQ(brightest(light(type, number("scale", "1e-9"))), 1e-9) << type;
+    EXPECT_DOUBLE_EQ(brightest(light(type, "")), 1) << type;
+  }
+  EXPECT_DOUBLE_EQ(
+      brightest(light("sunsky", number("sunScale", "1e-9") + number("skyScale", "1e-8"))), 1e-8);
+  EXPECT_DOUBLE_EQ(brightest(light("sunsky", number("sunScale", "1e-9") + number("scale", "1e-8"))),
+                   1e-8);
+}
+
 TEST_F(DocumentEdit, UnitsOfRadiance) {
   for (const double factor : {1e-30, 1e-3, 1.0, 1e3, 1e30}) {
     load(kCamera + std::string("<emitter type=\"constant\"/><shape type=\"sphere\"/>\n"));

@@ -336,8 +336,14 @@ double brightestLight(const SceneDocument& document) {
       double& brightest = color == "intensity" ? intensity : radiance;
       brightest = std::max(brightest, largestColor(document, element, color));
     } else if (hasScale(type)) {
-      for (const char* name : {"scale", "sunScale", "skyScale"})
-        radiance = std::max(radiance, scaleOf(element, name));
+      int given = 0;
+      for (const char* part : {"sunScale", "skyScale"}) {
+        if (!findParameter(element, part)) continue;
+        ++given;
+        radiance = std::max(radiance, scaleOf(element, part));
+      }
+      // What "scale" stands for where they don't say.
+      if (given < 2) radiance = std::max(radiance, scaleOf(element, "scale"));
     }
   });
   const double brightest = radiance > 0 ? radiance : intensity;
