@@ -322,7 +322,7 @@ RenderResult MetropolisRender::run() {
   const int wanted = options_.integer("bootstrapSamples");
   // At most: where samples take no time.
   requireMetropolisMemory(scene_, options_, request_, maxLength_,
-                          wanted > 0 ? wanted : bootstrapSamples(1e-14));
+                          wanted > 0 ? wanted : bootstrapSamples(0));
   if (request_.resume) archiveRender(*request_.resume);
   restored_ = stage_ != Stage::kDirect;
   if (stage_ == Stage::kDirect) {

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "render/bsdf/rough_transmittance.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -13,6 +10,7 @@
 #include "render/bsdf/fresnel.h"
 #include "render/bsdf/quadrature.h"
 #include "render/core/index.h"
+#include "render/core/parallel.h"
 
 namespace h2mc {
 
@@ -114,12 +112,8 @@ double RoughTransmittance::integrate(const Microfacet& facets, double eta, doubl
 RoughTransmittance::RoughTransmittance(const Microfacet& facets, double eta) {
   constexpr int n = kIntervals;
   std::vector<double> f(n + 1), m(n + 1), diagonal(n + 1), right(n + 1);
-  // Isolated: a thread that waits here must not begin to read something else.
-  tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(0, n + 1, [&](int i) {
-      f[at(i)] = integrate(facets, eta, double(i) * i / (double(n) * n));
-    });
-  });
+  parallelFor(0, n + 1,
+              [&](int i) { f[at(i)] = integrate(facets, eta, double(i) * i / (double(n) * n)); });
   // Slopes m per interval of a spline with m[0] = 0 (the function is smooth in c, so even in
   // sqrt(c)) and a one-sided difference at the other end: m[i-1] + 4 m[i] + m[i+1] = 3 (f[i+1] -
   // f[i-1]).
