@@ -65,8 +65,10 @@ asan_tests() {
 # on known targets, together 8 s of processor time without it.
 quick_statistical='BsdfSampling.*:LightSampling.*:Kernels/ChainOn*-*Slow*'
 
+# dlopen is called by the sanitizer's library there, which does not know the program's RUNPATH.
 tsan_tests() {
-  TSAN_OPTIONS="suppressions=$root/tests/sanitizers/tsan.supp:history_size=4" run_whole tsan threads '-*Slow*'
+  LD_LIBRARY_PATH="$root/build/tsan/modules" \
+    TSAN_OPTIONS="suppressions=$root/tests/sanitizers/tsan.supp:history_size=4" run_whole tsan threads '-*Slow*'
 }
 
 formatting() {
