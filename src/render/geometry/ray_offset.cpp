@@ -68,8 +68,8 @@ void addTriangles(const std::vector<glm::uvec3>& triangles, const Vec3f* positio
   }
 }
 
-// Of an instance: as if it had three triangles. Embree takes rays into the mesh's space in float, where a transform that
-// stretches loses more of their digits.
+// Of an instance: as if it had three triangles. Embree takes rays into the mesh's space in float,
+// where a transform that stretches loses more of their digits.
 Extent extentOf(const SharedMesh& shared, std::span<const Placement> placements) {
   Extent extent;
   extent.longest = {0, 0, 0};
