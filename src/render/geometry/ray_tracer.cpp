@@ -206,8 +206,8 @@ struct RayTracer::Impl {
   // A geometry of triangles, their vertices at `steps` moments one after another.
   RTCGeometry triangles(std::span<const glm::uvec3> indices, const std::vector<Vec3f>& positions,
                         unsigned steps) const;
-  // Commits it and gives it up to the scene.
-  void add(RTCGeometry geometry, std::size_t id);
+  // Commits it and gives it up to a scene.
+  static void add(RTCScene to, RTCGeometry geometry, std::size_t id);
 
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
@@ -224,10 +224,10 @@ RTCScene RayTracer::Impl::newScene() const {
   return made;
 }
 
-void RayTracer::Impl::add(RTCGeometry geometry, std::size_t id) {
+void RayTracer::Impl::add(RTCScene to, RTCGeometry geometry, std::size_t id) {
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
   rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene, geometry, static_cast<unsigned>(id));
+  rtcAttachGeometryByID(to, geometry, static_cast<unsigned>(id));
   rtcReleaseGeometry(geometry);
 }
 
@@ -239,7 +239,8 @@ void RayTracer::Impl::attachMesh(std::size_t index) {
   if (triangles.size() == offset.vast(index).size()) return;
   // Points, which no ray meets.
   for (const std::uint32_t i : offset.vast(index)) triangles[i] = glm::uvec3(triangles[i].x);
-  add(this->triangles(triangles, mesh ? mesh->positions : moving->positions,
+  add(scene,
+      this->triangles(triangles, mesh ? mesh->positions : moving->positions,
                       static_cast<unsigned>(shape.motionSegments() + 1)),
       index);
 }
@@ -267,11 +268,7 @@ void RayTracer::Impl::attachInstance(std::size_t index) {
   RTCScene& inner = meshes[shared];
   if (!inner) {
     inner = newScene();
-    const RTCGeometry geometry = triangles(shared->mesh.triangles, shared->mesh.positions, 1);
-    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(inner, geometry);
-    rtcReleaseGeometry(geometry);
+    add(inner, triangles(shared->mesh.triangles, shared->mesh.positions, 1), 0);
     rtcCommitScene(inner);
   }
   const std::span<const Placement> steps = shapes[index].placements();
@@ -282,7 +279,7 @@ void RayTracer::Impl::attachInstance(std::size_t index) {
     const Mat4 toWorld(steps[k].toWorld());
     rtcSetGeometryTransform(instance, k, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &toWorld[0][0]);
   }
-  add(instance, index);
+  add(scene, instance, index);
 }
 
 void RayTracer::Impl::attachVast(std::size_t index) {
@@ -296,7 +293,7 @@ void RayTracer::Impl::attachVast(std::size_t index) {
   rtcSetGeometryBoundsFunction(geometry, vastBounds, nullptr);
   rtcSetGeometryIntersectFunction(geometry, vastIntersect);
   rtcSetGeometryOccludedFunction(geometry, vastOccluded);
-  add(geometry, shapes.size() + vast.size() - 1);
+  add(scene, geometry, shapes.size() + vast.size() - 1);
 }
 
 void RayTracer::Impl::attach(std::size_t index) {
@@ -317,7 +314,7 @@ void RayTracer::Impl::attach(std::size_t index) {
   rtcSetGeometryBoundsFunction(geometry, roundBounds, nullptr);
   rtcSetGeometryIntersectFunction(geometry, roundIntersect);
   rtcSetGeometryOccludedFunction(geometry, roundOccluded);
-  add(geometry, index);
+  add(scene, geometry, index);
 }
 
 RayTracer::RayTracer(std::span<const Shape> shapes) : impl_(std::make_unique<Impl>(shapes)) {

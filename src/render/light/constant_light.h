@@ -19,31 +19,15 @@ struct ConstantLight {
   template <class T>
   DirectLight<T> sampleDirect(const LightContext& context, PrimitiveId, const Vec3<T>&, const T& u0,
                               const T& u1) const {
-    using S = Scalar<T>;
-    DirectLight<T> r;
-    r.direction = detail::uniformSphere(u0, u1);
-    r.distance = T(S(detail::beyond(context.bounds)));
-    r.arriving = detail::passiveColor<T>(radiance * (4 * kPi));
-    r.directPdf = T(S(kInvPi / 4));
-    r.emissionPdf = T(S(kInvPi / 4) * detail::diskPdf<S>(context.bounds));
-    r.cosLight = T(S(1));
-    return r;
+    return detail::directFromInfinity<T>(context.bounds, detail::uniformSphere(u0, u1),
+                                         T(Scalar<T>(kInvPi / 4)), arriving<T>());
   }
 
   template <class T>
   EmittedRay<T> sampleEmission(const LightContext& context, PrimitiveId, const T& u0, const T& u1,
                                const T& v0, const T& v1) const {
-    using S = Scalar<T>;
-    EmittedRay<T> r;
-    const Vec3<T> toLight = detail::uniformSphere(v0, v1);
-    r.origin = detail::diskTowards(context.bounds, toLight, u0, u1);
-    r.direction = -toLight;
-    r.normal = lift<T>(Vec3<S>(0));
-    r.flux = detail::passiveColor<T>(radiance * (4 * kPi / detail::diskPdf<float>(context.bounds)));
-    r.directPdf = T(S(kInvPi / 4));
-    r.emissionPdf = T(S(kInvPi / 4) * detail::diskPdf<S>(context.bounds));
-    r.cosLight = T(S(1));
-    return r;
+    return detail::emittedFromInfinity<T>(context.bounds, detail::uniformSphere(v0, v1),
+                                          T(Scalar<T>(kInvPi / 4)), arriving<T>(), u0, u1);
   }
 
   template <class T>
@@ -68,6 +52,12 @@ struct ConstantLight {
   }
   unsigned wrapsDirect(const LightContext&) const { return 1; }
   unsigned wrapsEmission(const LightContext&) const { return 2 | 4; }
+
+ private:
+  template <class T>
+  Rgb<T> arriving() const {
+    return detail::passiveColor<T>(radiance * (4 * kPi));
+  }
 };
 
 }  // namespace h2mc

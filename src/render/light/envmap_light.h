@@ -29,34 +29,21 @@ class EnvmapLight {
   template <class T>
   DirectLight<T> sampleDirect(const LightContext& context, PrimitiveId, const Vec3<T>&, const T& u0,
                               const T& u1) const {
-    using S = Scalar<T>;
-    DirectLight<T> r;
+    Vec3<T> toLight;
     T sine;
-    const BilinearDistribution::Point<T> point = sampleDirection<T>(u0, u1, r.direction, sine);
-    r.directPdf = solidAnglePdf(point, sine);
-    r.arriving = perSolidAngle(point, sine);
-    r.distance = T(S(detail::beyond(context.bounds)));
-    r.emissionPdf = r.directPdf * detail::diskPdf<S>(context.bounds);
-    r.cosLight = T(S(1));
-    return r;
+    const BilinearDistribution::Point<T> point = sampleDirection<T>(u0, u1, toLight, sine);
+    return detail::directFromInfinity<T>(context.bounds, toLight, solidAnglePdf(point, sine),
+                                         perSolidAngle(point, sine));
   }
 
   template <class T>
   EmittedRay<T> sampleEmission(const LightContext& context, PrimitiveId, const T& u0, const T& u1,
                                const T& v0, const T& v1) const {
-    using S = Scalar<T>;
-    EmittedRay<T> r;
     Vec3<T> toLight;
     T sine;
     const BilinearDistribution::Point<T> point = sampleDirection<T>(v0, v1, toLight, sine);
-    r.flux = perSolidAngle(point, sine) * (S(1) / detail::diskPdf<S>(context.bounds));
-    r.directPdf = solidAnglePdf(point, sine);
-    r.origin = detail::diskTowards(context.bounds, toLight, u0, u1);
-    r.direction = -toLight;
-    r.normal = lift<T>(Vec3<S>(0));
-    r.emissionPdf = r.directPdf * detail::diskPdf<S>(context.bounds);
-    r.cosLight = T(S(1));
-    return r;
+    return detail::emittedFromInfinity<T>(context.bounds, toLight, solidAnglePdf(point, sine),
+                                          perSolidAngle(point, sine), u0, u1);
   }
 
   template <class T>

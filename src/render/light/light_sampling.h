@@ -74,6 +74,37 @@ Rgb<T> passiveColor(const Rgbf& c) {
   return lift<T>(plain<T>(c));
 }
 
+// What lights that are infinitely far have in common. pdf: of the drawn direction `toLight`, per
+// solid angle; arriving: radiance over that.
+template <class T>
+DirectLight<T> directFromInfinity(const SceneBounds& bounds, const Vec3<T>& toLight, const T& pdf,
+                                  const Rgb<T>& arriving) {
+  using S = Scalar<T>;
+  DirectLight<T> r;
+  r.direction = toLight;
+  r.distance = T(S(beyond(bounds)));
+  r.arriving = arriving;
+  r.directPdf = pdf;
+  r.emissionPdf = pdf * diskPdf<S>(bounds);
+  r.cosLight = T(S(1));
+  return r;
+}
+// u0, u1: where the ray begins.
+template <class T>
+EmittedRay<T> emittedFromInfinity(const SceneBounds& bounds, const Vec3<T>& toLight, const T& pdf,
+                                  const Rgb<T>& arriving, const T& u0, const T& u1) {
+  using S = Scalar<T>;
+  EmittedRay<T> r;
+  r.origin = diskTowards(bounds, toLight, u0, u1);
+  r.direction = -toLight;
+  r.normal = lift<T>(Vec3<S>(0));
+  r.flux = arriving * (S(1) / diskPdf<S>(bounds));
+  r.directPdf = pdf;
+  r.emissionPdf = pdf * diskPdf<S>(bounds);
+  r.cosLight = T(S(1));
+  return r;
+}
+
 // Whether `p` is the point `at` up to rounding, `distance` away from where it was reckoned.
 inline bool isNear(const Vec3f& p, const Vec3f& at, float distance) {
   const Vec3f d = p - at;

@@ -37,32 +37,17 @@ class SunLight {
   template <class T>
   DirectLight<T> sampleDirect(const LightContext& context, PrimitiveId, const Vec3<T>&, const T& u0,
                               const T& u1) const {
-    using S = Scalar<T>;
-    DirectLight<T> r;
-    r.direction = sampleDirection(u0, u1);
-    r.distance = T(S(detail::beyond(context.bounds)));
-    r.arriving = radianceFrom<T>(context, r.direction) * solidAngle<S>();
-    r.directPdf = T(1 / solidAngle<S>());
-    r.emissionPdf = r.directPdf * detail::diskPdf<S>(context.bounds);
-    r.cosLight = T(S(1));
-    return r;
+    const Vec3<T> toLight = sampleDirection(u0, u1);
+    return detail::directFromInfinity<T>(context.bounds, toLight, T(1 / solidAngle<Scalar<T>>()),
+                                         arriving<T>(context, toLight));
   }
 
   template <class T>
   EmittedRay<T> sampleEmission(const LightContext& context, PrimitiveId, const T& u0, const T& u1,
                                const T& v0, const T& v1) const {
-    using S = Scalar<T>;
-    EmittedRay<T> r;
     const Vec3<T> toLight = sampleDirection(v0, v1);
-    r.flux =
-        radianceFrom<T>(context, toLight) * (solidAngle<S>() / detail::diskPdf<S>(context.bounds));
-    r.directPdf = T(1 / solidAngle<S>());
-    r.origin = detail::diskTowards(context.bounds, toLight, u0, u1);
-    r.direction = -toLight;
-    r.normal = lift<T>(Vec3<S>(0));
-    r.emissionPdf = r.directPdf * detail::diskPdf<S>(context.bounds);
-    r.cosLight = T(S(1));
-    return r;
+    return detail::emittedFromInfinity<T>(context.bounds, toLight, T(1 / solidAngle<Scalar<T>>()),
+                                          arriving<T>(context, toLight), u0, u1);
   }
 
   template <class T>
@@ -109,6 +94,10 @@ class SunLight {
     u = {toUnitInterval(turns(dot(direction, frame_.t), dot(direction, frame_.s))),
          toUnitInterval(height / height_)};
     return height <= static_cast<float>(height_);
+  }
+  template <class T>
+  Rgb<T> arriving(const LightContext& context, const Vec3<T>& toLight) const {
+    return radianceFrom<T>(context, toLight) * solidAngle<Scalar<T>>();
   }
   template <class T>
   Rgb<T> radianceFrom(const LightContext& context, const Vec3<T>& direction) const {
