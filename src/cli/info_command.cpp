@@ -97,8 +97,12 @@ void printLights(const Scene& scene) {
 
 void printCamera(const Scene& scene) {
   const Camera& camera = scene.camera;
-  line("camera", fmt::format("perspective at {} towards {}", text(camera.position()),
-                             text(camera.forward())));
+  std::string kind = "perspective";
+  if (camera.hasAperture())
+    kind = fmt::format("thin lens of radius {:g}, in focus at {:g},", camera.apertureRadius(),
+                       camera.focusDistance());
+  line("camera",
+       fmt::format("{} at {} towards {}", kind, text(camera.position()), text(camera.forward())));
   line("clipping", fmt::format("{:g} to {:g}", camera.nearClip, camera.farClip));
   line("shutter", fmt::format("{:g} to {:g}", camera.shutterOpen, camera.shutterClose));
   const FilmSettings& film = scene.film;

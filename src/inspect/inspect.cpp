@@ -62,17 +62,18 @@ std::vector<NamedPair> pairNames(const LocalModel& model, const Path& path,
   const auto own = at(path.technique.dimension());
   for (std::size_t i = 0; i < std::min(own, 2 * kMostCoordinatePairs); i += 2)
     add(fmt::format("u{}", i), fmt::format("u{}", i + 1));
+  if (path.aperture) add("aperture0", "aperture1");
   if (path.moving) add("u0", "time");
   return pairs;
 }
 
-Direction directionOf(const LocalModel& model, const Path& path, const std::string& name) {
-  Direction direction = model.direction(name, path.moving);
+Direction directionOf(const LocalModel& model, const std::string& name) {
+  Direction direction = model.direction(name);
   if (!direction.vector.empty()) return direction;
   if (name[0] == 'e' && !model.available)
     throw InspectError("--pair: no eigenvector \"" + name + "\": " + model.reason);
   throw InspectError("--pair: this path has no \"" + name +
-                     "\"; available: " + joined(model.names(path.moving)));
+                     "\"; available: " + joined(model.names()));
 }
 
 // Half the edge of a slice on the scale of the Gaussian, its centre of mass well inside.
@@ -87,10 +88,7 @@ void tracePairs(const Scene& scene, const InspectSettings& settings, Inspection&
       settings.sliceSize > 0 ? settings.sliceSize / 2 : std::min(kReach * sigma, 0.5);
   for (const auto& [x, y] : pairNames(result.model, result.path, settings.pair)) {
     if (settings.stop && *settings.stop) return;
-    InspectedPair pair{directionOf(result.model, result.path, x),
-                       directionOf(result.model, result.path, y),
-                       {},
-                       {}};
+    InspectedPair pair{directionOf(result.model, x), directionOf(result.model, y), {}, {}};
     const auto trace = [&](double halfX, double halfY) {
       return traceSlice(scene, result.path, pair.x, pair.y, halfX, halfY, settings.resolution,
                         settings.threads, settings.stop);

@@ -51,6 +51,7 @@ double dotProduct(const std::vector<double>& a, const std::vector<double>& b) {
 LocalModel localModel(const Scene& scene, const Path& path, const HamiltonianSettings& settings) {
   LocalModel model;
   model.dimension = path.dimension();
+  model.shared = path.shared();
   model.settings = settings;
   model.logTarget = std::log(double(path.target));
   Derivative derivative;
@@ -85,16 +86,17 @@ double LocalModel::driftAlong(const std::vector<double>& direction) const {
   return sum;
 }
 
-std::vector<std::string> LocalModel::names(bool moving) const {
+std::vector<std::string> LocalModel::names() const {
   std::vector<std::string> all;
   for (std::size_t i = 1; i <= eigen.size(); ++i) all.push_back(fmt::format("e{}", i));
-  for (int i = 0; i < dimension - moving; ++i) all.push_back(fmt::format("u{}", i));
-  if (moving) all.emplace_back("time");
+  for (int i = 0; i < dimension - shared.count(); ++i) all.push_back(fmt::format("u{}", i));
+  if (shared.aperture) all.insert(all.end(), {"aperture0", "aperture1"});
+  if (shared.time) all.emplace_back("time");
   return all;
 }
 
-Direction LocalModel::direction(const std::string& name, bool moving) const {
-  const std::vector<std::string> all = names(moving);
+Direction LocalModel::direction(const std::string& name) const {
+  const std::vector<std::string> all = names();
   const auto found = std::find(all.begin(), all.end(), name);
   if (found == all.end()) return {};
   const auto index = at(found - all.begin());

@@ -28,6 +28,7 @@ struct EigenDirection {
 
 struct LocalModel {
   int dimension = 0;  // the path's
+  SharedCoordinates shared;
   HamiltonianSettings settings;
   bool available = false;  // derivatives are there and finite
   std::string reason;      // why not
@@ -42,10 +43,10 @@ struct LocalModel {
   double deviationAlong(const std::vector<double>& direction) const;
   double driftAlong(const std::vector<double>& direction) const;
 
-  // Names of the directions that there are: e1 ... and u0 ..., time.
-  std::vector<std::string> names(bool moving) const;
+  // Names of the directions that there are: e1 ... and u0 ..., aperture0, aperture1, time.
+  std::vector<std::string> names() const;
   // The direction of one of these names. An empty vector if there is none.
-  Direction direction(const std::string& name, bool moving) const;
+  Direction direction(const std::string& name) const;
 };
 
 // Differentiates a path (with a positive target) and decomposes the Hessian.

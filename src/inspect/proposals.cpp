@@ -18,7 +18,7 @@ std::vector<float> offsetOf(const Path& from, const Path& to) {
   const int own = from.technique.dimension();
   std::vector<float> offset(static_cast<std::size_t>(from.dimension()));
   offsetBetween(from.sample, to.sample, own, ~CoordinateMask(0), offset.data());
-  if (from.moving) offset.back() = to.sample.time - from.sample.time;
+  sharedOffsetBetween(from.shared(), from.sample, to.sample, offset.data() + own);
   if (std::any_of(offset.begin(), offset.end(), [](float x) { return std::isnan(x); }))
     offset.clear();
   return offset;
@@ -43,6 +43,7 @@ ProposalKind propose(const Scene& scene, Mutation& mutation, ChainState& state,
     to.technique = from.technique;
     to.sample.u.fill(kUnknown);
     to.sample.time = from.sample.time;
+    to.sample.aperture = from.sample.aperture;
     to.target = 0;
     // The light and camera subpaths that a large step completes the state with are drawn anew.
     state.forget();

@@ -80,9 +80,8 @@ const char* nameOf(PathChoice choice) {
 json pathJson(const Scene& scene, const Inspection& inspection, const InspectSettings& settings) {
   const Path& path = inspection.path;
   const PathSearch& search = inspection.search;
-  std::vector<float> coordinates(path.sample.u.begin(),
-                                 path.sample.u.begin() + path.technique.dimension());
-  if (path.moving) coordinates.push_back(path.sample.time);
+  std::vector<float> coordinates(at(path.dimension()));
+  pathCoordinates(path, coordinates.data());
   return {{"text", pathText(path.technique, path.sample)},
           {"s", path.technique.s},
           {"t", path.technique.t},
@@ -103,7 +102,7 @@ json pathJson(const Scene& scene, const Inspection& inspection, const InspectSet
             {"accepted", search.accepted}}}};
 }
 
-json modelJson(const LocalModel& model, bool moving) {
+json modelJson(const LocalModel& model) {
   json eigen = json::array();
   for (std::size_t i = 0; i < model.eigen.size(); ++i) {
     const EigenDirection& e = model.eigen[i];
@@ -115,7 +114,7 @@ json modelJson(const LocalModel& model, bool moving) {
                      {"vector", e.vector}});
   }
   std::vector<std::string> coordinates;
-  for (const std::string& name : model.names(moving))
+  for (const std::string& name : model.names())
     if (name[0] != 'e') coordinates.push_back(name);
   return {{"available", model.available},  {"reason", model.reason},
           {"dimension", model.dimension},  {"coordinateNames", coordinates},
@@ -181,7 +180,7 @@ json inspectionJson(const Scene& scene, const Inspection& inspection, const Opti
           {"integrator", options.integrator()},
           {"options", optionText(options)},
           {"path", pathJson(scene, inspection, settings)},
-          {"model", modelJson(inspection.model, inspection.path.moving)},
+          {"model", modelJson(inspection.model)},
           {"film", film},
           {"pairs", pairs},
           {"kinds", kinds}};

@@ -63,7 +63,7 @@ Slice traceSlice(const Scene& scene, const Path& path, const Direction& first,
       const std::size_t at = slice.index(column, row);
       moved.sample = path.sample;
       if (!addOffset(path.sample, offset.data(), own, path.wraps, moved.sample) ||
-          (path.moving && !addToTime(path.sample, offset.back(), moved.sample))) {
+          !addToShared(path.shared(), path.sample, offset.data() + own, moved.sample)) {
         slice.cells[at] = SliceCell::kOutside;
         continue;
       }

@@ -28,12 +28,13 @@ void pointsAt(const Scene& scene, const Path& path, bool infinite, const double*
   const auto [s, t] = path.technique;
   const int k = path.technique.length();
   const double time = path.sample.time;
+  const double aperture[2] = {path.sample.aperture[0], path.sample.aperture[1]};
   PathRay<double> ray{};
   PathVertex<double> vertex{};
   for (int i = 1; i < t; ++i) {
     const double* v = u + path.technique.cameraCoordinate(i - 1);
     ray = i == 1
-              ? startCamera<double>(scene, u[0], u[1], &time)
+              ? startCamera<double>(scene, u[0], u[1], &time, aperture)
               : replayScatter<double>(scene, path, Side::kCamera, i - 1, ray, vertex, v[0], v[1]);
     if (i == t - 1 && path.escaped) {
       x[0] = ray.direction;
@@ -170,7 +171,9 @@ struct Count {
 class DensityJacobian : public ::testing::TestWithParam<std::string> {
  protected:
   Scene scene() {
-    return GetParam() == "motion" ? folder_.read(halfMovingScene(0, 1, true))
+    const std::string moving = halfMovingScene(0, 1, true);
+    return GetParam() == "motion" ? folder_.read(moving)
+           : GetParam() == "lens" ? folder_.read(withThinLens(moving, 0.2, 6))
                                   : galleryScene(folder_, galleryLights(folder_).at(GetParam()));
   }
   testing::SceneFolder folder_;
@@ -216,14 +219,14 @@ TEST_P(DensityJacobian, IsOneOverTheDensity) {
   EXPECT_LE(plain.apart, plain.paths / 100);
   EXPECT_GT(refracted.paths, 20);
   EXPECT_LE(refracted.apart, 1 + refracted.paths / 100);
-  // Balls of glass turn back what they have turned; those with shading normals do not. "motion" has none.
-  if (GetParam() != "motion") {
+  // Balls of glass turn back what they have turned; those with shading normals do not. The moving scene has none.
+  if (GetParam() != "motion" && GetParam() != "lens") {
     EXPECT_GT(mistaken.apart, 3 + 3 * refracted.apart);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Gallery, DensityJacobian,
-                         ::testing::Values("area", "points", "infinite", "sky", "motion"),
+                         ::testing::Values("area", "points", "infinite", "sky", "motion", "lens"),
                          [](const auto& info) { return info.param; });
 
 }  // namespace

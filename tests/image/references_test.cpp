@@ -95,7 +95,8 @@ std::vector<Case> cases() {
                             "sky",
                             "sun",
                             "sunsky",
-                            "instance"}) {
+                            "instance",
+                            "thinlens"}) {
     const std::string name = scene;
     list.push_back({name,
                     "path",

@@ -20,7 +20,7 @@ class HalfMovingTarget final : public Target {
   static constexpr Technique kTechniques[] = {{0, 2}, {0, 3}};
 
   int maxLength() const override { return 2; }
-  bool hasTime() const override { return true; }
+  SharedCoordinates shared() const override { return {false, true}; }
 
   static bool moving(float u0, float u1) { return u0 >= 0.35f + 0.3f * u1; }
   // Large steps try every technique there is.

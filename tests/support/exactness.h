@@ -48,17 +48,25 @@ inline int techniqueOf(const Path& path) {
 }
 
 // In which cells of each table a state lies.
-constexpr std::size_t kTables = 5;
-inline constexpr const char* kTableNames[kTables] = {
-    "technique x film", "technique x octave of the target", "technique x middle coordinate",
-    "technique x last coordinate", "technique x time"};
+constexpr std::size_t kTables = 6;
+inline constexpr const char* kTableNames[kTables] = {"technique x film",
+                                                     "technique x octave of the target",
+                                                     "technique x middle coordinate",
+                                                     "technique x last coordinate",
+                                                     "technique x time",
+                                                     "technique x aperture"};
 inline std::array<int, kTables> cellsOf(const Path& path, double meanTarget) {
   const int technique = techniqueOf(path), dimension = path.technique.dimension();
   const int film = cellOf(path.filmY, kRows) * kColumns + cellOf(path.filmX, kColumns);
   const int octave = std::clamp(std::ilogb(path.target / meanTarget), -12, 12) + 12;
   const auto u = [&](int i) { return cellOf(path.sample.u[at(i)], 6); };
-  return {technique * 12 + film, technique * 25 + octave, technique * 6 + u(dimension / 2),
-          technique * 6 + u(dimension - 2), technique * 6 + cellOf(path.sample.time, 6)};
+  return {
+      technique * 12 + film,
+      technique * 25 + octave,
+      technique * 6 + u(dimension / 2),
+      technique * 6 + u(dimension - 2),
+      technique * 6 + cellOf(path.sample.time, 6),
+      technique * 9 + cellOf(path.sample.aperture[0], 3) * 3 + cellOf(path.sample.aperture[1], 3)};
 }
 
 // Blocks of the film, and the whole of it last.

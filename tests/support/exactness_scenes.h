@@ -99,8 +99,8 @@ inline std::string skyScene() {
 
 inline std::vector<ExactnessScene> exactnessScenes() {
   return {{"room", roomScene(), 4},
-          {"moving", halfMovingScene(0, 1, true, 16, 12), 4},
-          {"glass", glassScene(), 5},
+          {"moving", withThinLens(halfMovingScene(0, 1, true, 16, 12), 0.2, 6), 4},
+          {"glass", withThinLens(glassScene(), 0.15, 4), 5},
           {"sky", skyScene(), 4}};
 }
 

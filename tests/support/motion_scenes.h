@@ -6,6 +6,15 @@
 
 namespace h2mc::test {
 
+// The scene with a thin lens before its camera.
+inline std::string withThinLens(std::string scene, double radius, double focus) {
+  const std::string pinhole = "<sensor type=\"perspective\">";
+  return scene.replace(scene.find(pinhole), pinhole.size(),
+                       "<sensor type=\"thinlens\"><float name=\"apertureRadius\" value=\"" +
+                           std::to_string(radius) + "\"/><float name=\"focusDistance\" value=\"" +
+                           std::to_string(focus) + "\"/>");
+}
+
 // Everything that can move does: a glossy cube that turns, a sphere, a lamp that turns and grows, a disk
 // that tilts, a camera that travels and turns; but the floor, a box and a second lamp stand still.
 // Half of the picture shows what does not move. `open` and `close`: the shutter.

@@ -32,7 +32,9 @@ inline double tracedWeight(const Scene& scene, const Path& path) {
                                  path.lightPrimitive, u[0], u[1], kBoth, direct, time)
         .weight;
   const TracedVertex& light = path.light[at(s) - 1];
-  if (t == 1) return connectToCamera<float>(scene, light.vertex, light.id, time).weight;
+  if (t == 1)
+    return connectToCamera<float>(scene, light.vertex, light.id, time, path.sample.aperture.data())
+        .weight;
   return connectVertices<float>(scene, camera.vertex, camera.id, light.vertex, light.id).weight;
 }
 

@@ -26,7 +26,7 @@ void expectSeenFromBothEnds(const Scene& scene) {
     ++hits;
     beforeCard += nextPrimitive(scene, ray, false, time).shape == 0;
     float filmX = -1, filmY = -1;
-    hidden += !cameraVisible(scene, vertex.point, time, filmX, filmY);
+    hidden += !cameraVisible(scene, vertex.point, time, {0.5f, 0.5f}, filmX, filmY);
     elsewhere += !(std::abs(filmX - u) < 1e-4f && std::abs(filmY - v) < 1e-4f);
   }
   EXPECT_GT(hits, 3000);
@@ -53,7 +53,7 @@ TEST(CameraClip, EndsAtTheNearPlane) {
       // Straight ahead at the middle's height, beyond the card.
       point.p = Vec3f(x, 1, 0);
       point.ng = Vec3f(0, 0, 1);
-      EXPECT_EQ(cameraVisible(scene, point, 0, filmX, filmY), distance < 1) << x;
+      EXPECT_EQ(cameraVisible(scene, point, 0, {0.5f, 0.5f}, filmX, filmY), distance < 1) << x;
     }
   }
 }

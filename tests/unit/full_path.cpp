@@ -28,6 +28,9 @@ class PathSpace : public ::testing::TestWithParam<std::string> {
       scene_ = std::make_unique<Scene>(readScene(name, options));
     } else if (name == "motion") {
       scene_ = std::make_unique<Scene>(folder_.read(halfMovingScene(0, 1, true)));
+    } else if (name == "lens") {
+      scene_ =
+          std::make_unique<Scene>(folder_.read(withThinLens(halfMovingScene(0, 1, true), 0.2, 6)));
     } else {
       scene_ = std::make_unique<Scene>(galleryScene(folder_, galleryLights(folder_).at(name)));
     }
@@ -131,7 +134,8 @@ TEST_P(PathSpace, CastEdgesAreThoseThatTracingFinds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Gallery, PathSpace,
-                         ::testing::Values("area", "points", "infinite", "sky", "motion"), nameOf);
+                         ::testing::Values("area", "points", "infinite", "sky", "motion", "lens"),
+                         nameOf);
 INSTANTIATE_TEST_SUITE_P(SlowScenes, PathSpace, ::testing::ValuesIn(sceneFiles()), nameOf);
 
 // A mistake in the densities must not go unseen.

@@ -144,7 +144,7 @@ TEST(CameraMotion, FollowsTheTransform) {
     ASSERT_TRUE(camera.moves());
     for (int i = 0; i <= 50; ++i) {
       const double moment = i / 50.0;
-      const CameraPose<double> pose = camera.poseAt(moment);
+      const CameraPose<double> pose = camera.poseAt<double>(&moment, nullptr);
       const glm::dmat4 m = motion.at(moment);
       for (int k = 0; k < 3; ++k) {
         EXPECT_NEAR(pose.left[k], m[0][k], 1e-6);
@@ -153,12 +153,12 @@ TEST(CameraMotion, FollowsTheTransform) {
         EXPECT_NEAR(pose.position[k], m[3][k], 1e-6);
       }
     }
-    const CameraPose<float> begin = camera.poseOf(0), still = camera.pose<float>();
+    const CameraPose<float> begin = camera.poseOf(0, {0.5f, 0.5f}), still = camera.pose<float>();
     EXPECT_LT(glm::length(begin.left - still.left), 1e-6f);
     EXPECT_LT(glm::length(begin.forward - still.forward), 1e-6f);
     EXPECT_LT(glm::length(begin.position - still.position), 1e-6f);
     // Film positions and directions are each other's inverse at every moment.
-    const CameraPose<float> pose = camera.poseOf(0.6f);
+    const CameraPose<float> pose = camera.poseOf(0.6f, {0.5f, 0.5f});
     float x, y;
     ASSERT_TRUE(camera.project(pose, camera.direction(pose, 0.2f, 0.7f) * 3.f, x, y));
     EXPECT_NEAR(x, 0.2f, 1e-5f);

@@ -78,8 +78,7 @@ double magnification(const Scene& scene, const Path& path) {
   const int last = path.escaped ? t - 2 : t - 1;
   if (last >= 1) {
     const TracedVertex& first = path.camera[1];
-    const Vec3f eye = withCameraPose<float>(scene, &path.sample.time,
-                                            [](const auto& pose) { return Vec3f(pose.position); });
+    const Vec3f eye = scene.camera.poseOf(path.sample.time, path.sample.aperture).position;
     most = std::max(most, size(first) / glm::distance(eye, first.vertex.point.p));
   }
   for (int i = 1; i < last; ++i) look(path.camera[at(i)], path.camera[at(i) + 1]);
@@ -125,14 +124,16 @@ Scales scalesOf(const ad::DerivativeValues& exact) {
 bool neighbour(const Scene& scene, const std::vector<double>& reach,
                const GradcheckSettings& settings, Random& random, Path& near,
                ad::DerivativeValues& there) {
-  const int own = near.technique.dimension();
+  const auto own = at(near.technique.dimension());
   const bool moving = near.moving;
   double u[kMaxCoordinates];
   pathCoordinates(near, u);
+  float shared[kMostShared];
   for (std::size_t i = 0; i < reach.size(); ++i) {
     const double moved = u[i] + reach[i] * (2 * random.uniformDouble() - 1);
-    (static_cast<int>(i) < own ? near.sample.u[i] : near.sample.time) = toUnitInterval(moved);
+    (i < own ? near.sample.u[i] : shared[i - own]) = toUnitInterval(moved);
   }
+  setShared(near.shared(), shared, near.sample);
   if (!tracePath(scene, near) || near.moving != moving) return false;
   pathCoordinates(near, u);
   there = settings.exact ? settings.exact(scene, near, u) : differentiateInDouble(scene, near, u);

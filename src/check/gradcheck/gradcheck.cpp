@@ -70,7 +70,8 @@ std::vector<double> largestSteps(const Path& path) {
   pathCoordinates(path, coordinates);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const double u = coordinates[i];
-    if (!((path.wraps >> i) & 1)) steps[i] = std::min(kLargest, 0.99 * std::min(u, 1 - u));
+    const bool wraps = i < at(path.technique.dimension()) && ((path.wraps >> i) & 1);
+    if (!wraps) steps[i] = std::min(kLargest, 0.99 * std::min(u, 1 - u));
   }
   return steps;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "check/gradcheck/form_check.h"
 #include "check/gradcheck/path_source.h"
@@ -55,7 +56,7 @@ PathFinding look(const Scene& scene, const SampledPath& sampled) {
 
 // The paths with single coordinates and choices, and then all of them, at `border`.
 std::vector<SampledPath> atBorder(const std::vector<SampledPath>& paths, float border,
-                                  bool hasTime) {
+                                  const SharedCoordinates& shared) {
   std::vector<SampledPath> placed;
   for (const SampledPath& path : paths) {
     const auto dimension = at(path.technique.dimension());
@@ -70,11 +71,16 @@ std::vector<SampledPath> atBorder(const std::vector<SampledPath>& paths, float b
     }
     SampledPath all = path;
     std::fill_n(all.sample.u.begin(), dimension, border);
-    if (hasTime) {
+    float x[kMostShared];
+    getShared(shared, path.sample, x);
+    for (int k = 0; k < shared.count(); ++k) {
+      const float drawn = std::exchange(x[k], border);
       placed.push_back(path);
-      placed.back().sample.time = border;
-      all.sample.time = border;
+      setShared(shared, x, placed.back().sample);
+      x[k] = drawn;
     }
+    std::fill_n(x, shared.count(), border);
+    setShared(shared, x, all.sample);
     placed.push_back(all);
     std::fill_n(all.sample.choice.begin(), choices, border);
     placed.push_back(all);
@@ -126,7 +132,7 @@ StressFindings stressScene(const Scene& scene, const StressSettings& settings) {
   const bool drawn = settings.placement == CoordinatePlacement::kDrawn;
   if (!drawn)
     paths = atBorder(paths, settings.placement == CoordinatePlacement::kZero ? 0.f : kBelowOne,
-                     scene.moving);
+                     scene.shared());
 
   std::vector<PathFinding> findings(paths.size());
   parallelFor(settings.threads, (static_cast<int>(paths.size()) + kBlock - 1) / kBlock, [&](int b) {

@@ -24,8 +24,8 @@ const Gaussian& GaussianStep::gaussianAt(ChainState& state, MutationContext& con
 double GaussianStep::logDensity(const Gaussian& gaussian, const Path& from,
                                 const float* offset) const {
   double sum = gaussian.logDensity(offset);
-  if (target_.hasTime() && !from.moving) {
-    const double time = offset[from.technique.dimension()];
+  if (target_.shared().time && !from.moving) {
+    const double time = offset[from.timeCoordinate()];
     sum -= 0.5 * squared(time / sigma_) + std::log(double(sigma_));
   }
   return sum;
@@ -42,7 +42,7 @@ std::optional<double> GaussianStep::logDensity(ChainState& from, ChainState& to,
     return -std::numeric_limits<double>::infinity();
   float offset[kMaxCoordinates];
   offsetBetween(a.sample, b.sample, dimension, a.wraps, offset);
-  offset[dimension] = b.sample.time - a.sample.time;
+  sharedOffsetBetween(target_.shared(), a.sample, b.sample, offset + dimension);
   return logDensity(gaussianAt(from, context), a, offset);
 }
 
@@ -51,18 +51,17 @@ Proposal GaussianStep::propose(ChainState& current, ChainState& proposed,
   const Path& from = current.path;
   Path& to = proposed.path;
   const int dimension = from.technique.dimension();
-  const bool hasTime = target_.hasTime();
+  const SharedCoordinates shared = target_.shared();
   ++context.derivatives.steps;
   const Gaussian& gaussian = gaussianAt(current, context);
   float offset[kMaxCoordinates];
   gaussian.sample(*context.random, offset);
   // Time that the path does not depend on: the prior.
-  for (int i = gaussian.dimension; i < dimension + hasTime; ++i)
+  for (int i = gaussian.dimension; i < dimension + shared.count(); ++i)
     offset[i] = sigma_ * context.random->normal();
   to.technique = from.technique;
   to.sample.choice = from.sample.choice;
-  to.sample.time = from.sample.time;
-  if (hasTime && !addToTime(from.sample, offset[dimension], to.sample)) return Proposal::none();
+  if (!addToShared(shared, from.sample, offset + dimension, to.sample)) return Proposal::none();
   if (!addOffset(from.sample, offset, dimension, from.wraps, to.sample)) return Proposal::none();
   if (!target_.evaluate(to)) {
     ++context.derivatives.dark;
@@ -72,7 +71,7 @@ Proposal GaussianStep::propose(ChainState& current, ChainState& proposed,
   if (!std::isfinite(back)) return Proposal::none();
   float forward[kMaxCoordinates];
   offsetBetween(from.sample, to.sample, dimension, from.wraps, forward);
-  forward[dimension] = to.sample.time - from.sample.time;
+  sharedOffsetBetween(shared, from.sample, to.sample, forward + dimension);
   return Proposal::withLogRatio(back - logDensity(gaussian, from, forward));
 }
 

@@ -27,8 +27,12 @@ Proposal IsotropicStep::propose(ChainState& current, ChainState& proposed,
   for (int i = 0; i < from.technique.choices(); ++i)
     to.sample.choice[at(i)] = wrap(from.sample.choice[at(i)] + size * offset(*context.random));
   to.sample.time = from.sample.time;
-  if (target_.hasTime())
-    to.sample.time = reflect(from.sample.time + size * offset(*context.random));
+  to.sample.aperture = from.sample.aperture;
+  float shared[kMostShared];
+  getShared(target_.shared(), from.sample, shared);
+  for (int i = 0; i < target_.shared().count(); ++i)
+    shared[i] = reflect(shared[i] + size * offset(*context.random));
+  setShared(target_.shared(), shared, to.sample);
   return target_.evaluate(to) ? Proposal::withLogRatio(0) : Proposal::none();
 }
 

@@ -15,7 +15,7 @@ namespace {
 // Longer paths have the prior: there are too many techniques, each too seldom met.
 constexpr int kLongest = 12;
 // The sums of a technique, with or without time: how many gradients, then the squares of its coordinates.
-constexpr int kStride = 2 + 2 * kLongest;
+constexpr int kStride = 1 + 2 * kLongest + kMostShared;
 // So many gradients are asked for before their mean is believed.
 constexpr double kLeast = 64;
 // Squares count no further than this: a mean of fewer than a thousand must not hang on one of them.

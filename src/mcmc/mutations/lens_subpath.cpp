@@ -17,6 +17,7 @@ std::optional<Refusal> LensSubpath::trace(const FullPath& x, int r, Random& rand
   FullPath& traced = traced_;
   traced.edges = kMaxPathLength;
   traced.time = x.time;
+  traced.aperture = x.aperture;
   traced.x[kMaxPathLength] = x.eye();
   Growth growth{scene, traced};
   int last = kMaxPathLength - 1;

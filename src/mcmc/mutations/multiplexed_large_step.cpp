@@ -13,7 +13,7 @@ Proposal MultiplexedLargeStep::propose(ChainState& current, ChainState& proposed
   const int index = techniques_.choose(random.uniform());
   Path& path = proposed.path;
   path.technique = techniques_.technique(index);
-  path.sample.time = target_.hasTime() ? random.uniform() : 0;
+  drawShared(target_.shared(), random, path.sample);
   for (int i = 0; i < path.technique.dimension(); ++i) path.sample.u[at(i)] = random.uniform();
   for (int i = 0; i < path.technique.choices(); ++i) path.sample.choice[at(i)] = random.uniform();
   lastEstimate_ = 0;

@@ -40,6 +40,7 @@ FullPath& PathMove::begin(const FullPath& x) {
   to.infinite = x.infinite;
   to.escape = x.escape;
   to.time = x.time;
+  to.aperture = x.aperture;
   return to;
 }
 

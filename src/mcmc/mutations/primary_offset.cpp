@@ -38,9 +38,27 @@ void offsetBetween(const PrimarySample& from, const PrimarySample& to, int dimen
   }
 }
 
-bool addToTime(const PrimarySample& from, float offset, PrimarySample& to) {
-  to.time = from.time + offset;
-  return to.time >= 0 && to.time < 1;
+bool addToShared(const SharedCoordinates& there, const PrimarySample& from, const float* offset,
+                 PrimarySample& to) {
+  float x[kMostShared];
+  getShared(there, from, x);
+  bool inside = true;
+  for (int i = 0; i < there.count(); ++i) {
+    x[i] += offset[i];
+    inside = inside && x[i] >= 0 && x[i] < 1;
+  }
+  to.time = from.time;
+  to.aperture = from.aperture;
+  setShared(there, x, to);
+  return inside;
+}
+
+void sharedOffsetBetween(const SharedCoordinates& there, const PrimarySample& from,
+                         const PrimarySample& to, float* offset) {
+  float a[kMostShared], b[kMostShared];
+  getShared(there, from, a);
+  getShared(there, to, b);
+  for (int i = 0; i < there.count(); ++i) offset[i] = b[i] - a[i];
 }
 
 }  // namespace h2mc

@@ -16,7 +16,10 @@ bool addOffset(const PrimarySample& from, const float* offset, int dimension, Co
 void offsetBetween(const PrimarySample& from, const PrimarySample& to, int dimension,
                    CoordinateMask wraps, float* offset);
 
-// The same for time, which does not wrap: false outside [0, 1).
-bool addToTime(const PrimarySample& from, float offset, PrimarySample& to);
+// The same for the coordinates that belong to no technique, which do not wrap; those that are not there stay.
+bool addToShared(const SharedCoordinates& there, const PrimarySample& from, const float* offset,
+                 PrimarySample& to);
+void sharedOffsetBetween(const SharedCoordinates& there, const PrimarySample& from,
+                         const PrimarySample& to, float* offset);
 
 }  // namespace h2mc

@@ -20,9 +20,8 @@ class Target {
   // The first alone.
   virtual void differentiateOnce(const Path& path, Gradient& result) const = 0;
   virtual int maxLength() const = 0;
-  // Whether time is a further coordinate of every state: PrimarySample::time in [0, 1). Derivatives have it as their
-  // last coordinate where path.moving.
-  virtual bool hasTime() const { return false; }
+  // The coordinates that every state has besides its technique's. Derivatives have those that the path depends on.
+  virtual SharedCoordinates shared() const { return {}; }
 };
 
 // A target on the paths of a scene: a function of what a path contributes, and where. A target that changes another one
@@ -55,7 +54,7 @@ class PathTarget : public Target {
     h2mc::differentiateOnce(scene_, path, result);
   }
   int maxLength() const final { return maxLength_; }
-  bool hasTime() const final { return scene_.moving; }
+  SharedCoordinates shared() const final { return scene_.shared(); }
   const Scene& scene() const { return scene_; }
 
  private:

@@ -35,11 +35,16 @@ Camera::Camera(const Mat4& toWorld, float fov, FovAxis axis, float aspect) {
 
 void Camera::crop(double left, double top, double right, double bottom) {
   const double tanX = tanX_, tanY = tanY_;
-  shiftX_ = static_cast<float>(tanX * (1 - left - right));
-  shiftY_ = static_cast<float>(tanY * (1 - top - bottom));
+  pose_.shiftX = static_cast<float>(tanX * (1 - left - right));
+  pose_.shiftY = static_cast<float>(tanY * (1 - top - bottom));
   tanX_ = static_cast<float>(tanX * (right - left));
   tanY_ = static_cast<float>(tanY * (bottom - top));
   filmArea_ = static_cast<float>(4 * tanX * (right - left) * tanY * (bottom - top));
+}
+
+void Camera::focus(float apertureRadius, float focusDistance) {
+  apertureRadius_ = apertureRadius;
+  focusDistance_ = focusDistance;
 }
 
 void Camera::follow(const Motion& motion) {
@@ -50,8 +55,8 @@ bool Camera::project(const CameraPose<float>& pose, const Vec3f& direction, floa
                      float& filmY) const {
   const float z = dot(pose.forward, direction);
   if (!(z > 0)) return false;
-  filmX = ((dot(pose.left, direction) / z - shiftX_) * (1 / tanX_) - 1) * -0.5f;
-  filmY = ((dot(pose.up, direction) / z - shiftY_) * (1 / tanY_) - 1) * -0.5f;
+  filmX = ((dot(pose.left, direction) / z - pose.shiftX) * (1 / tanX_) - 1) * -0.5f;
+  filmY = ((dot(pose.up, direction) / z - pose.shiftY) * (1 / tanY_) - 1) * -0.5f;
   return filmX >= 0 && filmX < 1 && filmY >= 0 && filmY < 1;
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A perspective pinhole camera.
+// A perspective camera: a pinhole, or a thin lens.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "render/camera/camera_motion.h"
+#include "render/core/concentric_disk.h"
+#include "render/core/safe_math.h"
 #include "render/core/types.h"
 
 namespace h2mc {
@@ -23,30 +26,41 @@ class Camera {
   // film coordinates are the window's. Precondition: left < right, top < bottom. Call once.
   void crop(double left, double top, double right, double bottom);
 
+  // Gives it a thin lens: rays start anywhere on a disk of this radius across the axis, and those through one point of
+  // the film meet at a point of the plane that is `focusDistance` away along the axis. A point of the aperture being
+  // given, it is a pinhole there, with a film that is shifted. Preconditions: both > 0.
+  void focus(float apertureRadius, float focusDistance);
+  bool hasAperture() const { return apertureRadius_ > 0; }
+  float apertureRadius() const { return apertureRadius_; }
+  float focusDistance() const { return focusDistance_; }
+
   // Lets the camera move as `motion` says, if it moves; the rest stays as constructed.
   void follow(const Motion& motion);
   bool moves() const { return motion_.moves(); }
 
-  // Where it is: at rest, or at its motion's beginning; and at a moment `time` in [0, 1] of its motion
-  // (precondition: moves()).
+  // Where it is: at rest, or at its motion's beginning, at the aperture's centre.
   template <class S>
   CameraPose<S> pose() const {
     return {Vec3<S>(pose_.position), Vec3<S>(pose_.left), Vec3<S>(pose_.up),
-            Vec3<S>(pose_.forward)};
+            Vec3<S>(pose_.forward),  S(pose_.shiftX),     S(pose_.shiftY)};
   }
+  // At a moment `time` in [0, 1] of its motion, and at the point of the aperture that two numbers in [0, 1) stand for,
+  // uniform by area. Neither is looked at where it makes no difference.
   template <class T>
-  CameraPose<T> poseAt(const T& time) const {
-    return motion_.at(time);
+  CameraPose<T> poseAt(const T* time, const T* aperture) const;
+  CameraPose<float> poseOf(float time, const std::array<float, 2>& aperture) const {
+    return poseAt(&time, aperture.data());
   }
-  // The same whether it moves or not.
-  CameraPose<float> poseOf(float time) const { return moves() ? motion_.at(time) : pose_; }
+
+  // Where it looks, wherever in its aperture.
+  Vec3f forwardOf(float time) const { return moves() ? motion_.at(time).forward : pose_.forward; }
 
   // The unit direction through a point of the film, (0,0) its upper left and (1,1) its lower right
   // corner.
   template <class P, class T>
   Vec3<T> direction(const CameraPose<P>& pose, const T& filmX, const T& filmY) const {
-    const T x = (filmX * Scalar<T>(-2) + Scalar<T>(1)) * Scalar<T>(tanX_) + Scalar<T>(shiftX_);
-    const T y = (filmY * Scalar<T>(-2) + Scalar<T>(1)) * Scalar<T>(tanY_) + Scalar<T>(shiftY_);
+    const T x = (filmX * Scalar<T>(-2) + Scalar<T>(1)) * Scalar<T>(tanX_) + pose.shiftX;
+    const T y = (filmY * Scalar<T>(-2) + Scalar<T>(1)) * Scalar<T>(tanY_) + pose.shiftY;
     return normalize(pose.left * x + pose.up * y + pose.forward);
   }
   // Of a camera at rest.
@@ -78,9 +92,34 @@ class Camera {
  private:
   CameraPose<float> pose_{Vec3f(0), {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   CameraMotion motion_;
-  // At unit distance the film is the rectangle [-tan, tan] + shift.
+  // At unit distance the film is the rectangle [-tan, tan] + the pose's shift.
   float tanX_ = 1, tanY_ = 1, filmArea_ = 4;
-  float shiftX_ = 0, shiftY_ = 0;
+  float apertureRadius_ = 0, focusDistance_ = 1;
 };
+
+template <class T>
+CameraPose<T> Camera::poseAt(const T* time, const T* aperture) const {
+  using S = Scalar<T>;
+  CameraPose<T> pose;
+  if (moves()) {
+    pose = motion_.at(*time);
+    pose.shiftX = T(S(pose_.shiftX));
+    pose.shiftY = T(S(pose_.shiftY));
+  } else {
+    pose = {lift<T>(plain<T>(pose_.position)),
+            lift<T>(plain<T>(pose_.left)),
+            lift<T>(plain<T>(pose_.up)),
+            lift<T>(plain<T>(pose_.forward)),
+            T(S(pose_.shiftX)),
+            T(S(pose_.shiftY))};
+  }
+  if (!hasAperture()) return pose;
+  const Vec2<T> at = concentricDisk(aperture[0], aperture[1]);
+  const T x = at.x * S(apertureRadius_), y = at.y * S(apertureRadius_);
+  pose.position = pose.position + pose.left * x + pose.up * y;
+  pose.shiftX = pose.shiftX - x * (S(1) / S(focusDistance_));
+  pose.shiftY = pose.shiftY - y * (S(1) / S(focusDistance_));
+  return pose;
+}
 
 }  // namespace h2mc

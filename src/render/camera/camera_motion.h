@@ -14,6 +14,9 @@ template <class P>
 struct CameraPose {
   Vec3<P> position;
   Vec3<P> left, up, forward;  // unit, orthogonal
+  // Where the film's middle is at unit distance: off the axis where the film is cropped, and for a point of the
+  // aperture that is.
+  P shiftX = P(0), shiftY = P(0);
 };
 
 // The camera's way through its keyframes: in straight lines, turning by quaternions. No rays hit a

@@ -15,9 +15,11 @@ class PathSampler final : public PixelSampler {
 
   double sample(const Scene& scene, Random& random, float filmX, float filmY, SplatList& film,
                 SampleTally& tally) override {
-    const float time = scene.moving ? random.uniform() : 0;
+    PrimarySample shared;
+    drawShared(scene.shared(), random, shared);
     const Rgbf radiance =
-        trace(scene, random, time, startCamera<float>(scene, filmX, filmY, &time), tally);
+        trace(scene, random, shared.time,
+              startCamera<float>(scene, filmX, filmY, &shared.time, shared.aperture.data()), tally);
     film.splat(filmX, filmY, radiance);
     return luminance(radiance);
   }

@@ -102,7 +102,7 @@ bool Assembly::scatter(Side side, int count) {
 bool Assembly::camera() {
   const auto [s, t] = path_.technique;
   if (t == 1) return true;
-  const CameraPose<float> pose = scene_.camera.poseOf(full_.time);
+  const CameraPose<float> pose = scene_.camera.poseOf(full_.time, full_.aperture);
   const bool escapes = s == 0 && full_.infinite;
   const bool straight = escapes && t == 2;
   const Vec3f direction =
@@ -111,7 +111,8 @@ bool Assembly::camera() {
   if (!scene_.camera.project(pose, direction, u[0], u[1])) return false;
   path_.filmX = u[0];
   path_.filmY = u[1];
-  path_.lastRay = startCamera<float>(scene_, u[0], u[1], &path_.sample.time);
+  path_.lastRay =
+      startCamera<float>(scene_, u[0], u[1], &path_.sample.time, path_.sample.aperture.data());
   if (straight) {
     path_.escaped = true;
     return true;
@@ -199,8 +200,10 @@ bool edgeVisible(const Scene& scene, const FullPath& full, int i) {
   const bool escapes = i == 1 && full.infinite;
   if (i == full.edges) {
     float filmX, filmY;
-    if (!escapes) return cameraVisible(scene, full.x[at(i) - 1].point, full.time, filmX, filmY);
-    if (!scene.camera.project(scene.camera.poseOf(full.time), full.escape, filmX, filmY))
+    if (!escapes)
+      return cameraVisible(scene, full.x[at(i) - 1].point, full.time, full.aperture, filmX, filmY);
+    if (!scene.camera.project(scene.camera.poseOf(full.time, full.aperture), full.escape, filmX,
+                              filmY))
       return false;
     PathRay<float> ray{};
     ray.origin = from.p;
@@ -221,6 +224,7 @@ bool assemble(const Scene& scene, const FullPath& full, Technique technique, Edg
   if (s == 0 && std::visit([](const auto& l) { return l.isDelta(); }, light)) return false;
   path.technique = technique;
   path.sample.time = full.time;
+  path.sample.aperture = full.aperture;
   path.wraps = 0;
   path.escaped = false;
   path.lightIndex = full.light;

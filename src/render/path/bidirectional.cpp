@@ -28,7 +28,7 @@ Step BidirectionalSampler::keepCamera(const Path& given, int i) {
 void BidirectionalSampler::draw(const Scene& scene, Random& random, float filmX, float filmY,
                                 const Path* given) {
   // Coordinates are drawn where they are first needed, in an order that the random stream alone
-  // fixes: time, camera subpath, light subpath, then a light for each camera vertex.
+  // fixes: shared coordinates, camera subpath, light subpath, then a light for each camera vertex.
   const Technique own = given ? given->technique : Technique{0, 1};
   const auto scatter = [&](Path& path, int coordinate, int choice, bool known, int knownCoordinate,
                            int knownChoice) {
@@ -39,9 +39,13 @@ void BidirectionalSampler::draw(const Scene& scene, Random& random, float filmX,
     sample.choice[at(choice)] = known ? given->sample.choice[at(knownChoice)] : random.uniform();
   };
 
-  float time = 0;
-  if (scene.moving) time = given ? given->sample.time : random.uniform();
-  cameraPath_.sample.time = lightPath_.sample.time = time;
+  if (given) {
+    cameraPath_.sample.time = given->sample.time;
+    cameraPath_.sample.aperture = given->sample.aperture;
+  } else {
+    drawShared(scene.shared(), random, cameraPath_.sample);
+  }
+  lightPath_.sample.time = cameraPath_.sample.time;
   Path& camera = cameraPath_;
   camera.sample.u[0] = filmX_ = filmX < 0 ? random.uniform() : filmX;
   camera.sample.u[1] = filmY_ = filmY < 0 ? random.uniform() : filmY;
@@ -112,7 +116,7 @@ bool BidirectionalSampler::join(const Scene& scene, Connection& connection, int&
             lightPath_.lightPrimitive,
             0,
             0,
-            cameraPath_.sample.time};
+            &cameraPath_.sample};
   if (s == 1) {
     const Direct& direct = direct_[at(t) - 1];
     if (!pickLight(scene, scene.directPicker, direct.choice, ends.lightIndex, ends.lightPrimitive))
@@ -137,6 +141,7 @@ PrimarySample BidirectionalSampler::primarySample(const Technique& technique) co
   const auto [s, t] = technique;
   PrimarySample sample;
   sample.time = cameraPath_.sample.time;
+  sample.aperture = cameraPath_.sample.aperture;
   const auto copy = [](auto& to, int toIndex, const auto& from, int fromIndex, int count) {
     std::copy_n(from.begin() + fromIndex, count, to.begin() + toIndex);
   };

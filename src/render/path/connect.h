@@ -194,8 +194,9 @@ Link<T> linkOfVertices(const Scene& scene, const Arrival<T>& camera, PrimitiveId
 // t = 1, s >= 2: the light subpath's last vertex is seen by the camera.
 template <class T>
 Link<T> linkToCamera(const Scene& scene, const Arrival<T>& light, PrimitiveId id,
-                     const std::type_identity_t<T>* time = nullptr) {
-  return withCameraPose<T>(scene, time, [&](const auto& pose) {
+                     const std::type_identity_t<T>* time = nullptr,
+                     const std::type_identity_t<T>* aperture = nullptr) {
+  return withCameraPose<T>(scene, time, aperture, [&](const auto& pose) {
     Link<T> link = Link<T>::none();
     const Vec3<T> edge = light.point.p - pose.position;
     const T inverse2 = T(1) / length2(edge);
@@ -249,8 +250,9 @@ Contribution<T> connectVertices(const Scene& scene, const PathVertex<T>& camera,
 }
 template <class T>
 Contribution<T> connectToCamera(const Scene& scene, const PathVertex<T>& light, PrimitiveId id,
-                                const std::type_identity_t<T>* time = nullptr) {
-  return contributionOf<T>(linkToCamera<T>(scene, light, id, time), kNoEnd<T>, &light);
+                                const std::type_identity_t<T>* time = nullptr,
+                                const std::type_identity_t<T>* aperture = nullptr) {
+  return contributionOf<T>(linkToCamera<T>(scene, light, id, time, aperture), kNoEnd<T>, &light);
 }
 
 }  // namespace h2mc

@@ -116,7 +116,7 @@ bool dispatch(const Scene& scene, const Path& path, Derivative& result) {
 bool plainly(const Scene& scene, const Path& path, const Demands& demands, Derivative& result) {
   result.dimension = path.dimension();
   result.inDouble = false;
-  return result.dimension <= kMaxPlainDimension && !path.moving && !demands.smooth &&
+  return result.dimension <= kMaxPlainDimension && path.shared().count() == 0 && !demands.smooth &&
          demands.curvature <= kMostCurvature && dispatch<2>(scene, path, result);
 }
 

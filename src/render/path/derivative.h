@@ -34,12 +34,12 @@ struct Derivative {
 };
 
 // d log(path.target) at path.sample, with the topology (triangles, lobes, light, visibility) frozen, in
-// the form that is faster. result.dimension is path.dimension(): where the path depends on time, that is
-// the last coordinate. Precondition: path.target > 0.
+// the form that is faster. result.dimension is path.dimension(), in the order of pathCoordinates().
+// Precondition: path.target > 0.
 void differentiate(const Scene& scene, const Path& path, Derivative& result);
 
 // The same by either form. The plain one is there for paths of at most kMaxPlainDimension coordinates that
-// do not depend on time, meet nothing perfectly smooth and graze nothing, and false for others.
+// depend on no shared ones, meet nothing perfectly smooth and graze nothing, and false for others.
 bool differentiatePlainly(const Scene& scene, const Path& path, Derivative& result);
 void differentiateLocally(const Scene& scene, const Path& path, Derivative& result);
 

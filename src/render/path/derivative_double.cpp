@@ -30,7 +30,7 @@ ad::DerivativeValues differentiateInDouble(const Scene& scene, const Path& path,
         return block == a ? i % kBlock : block == b ? kBlock + i % kBlock : -1;
       };
       for (int i = 0; i < n; ++i) x[i] = lane(i) >= 0 ? Dual::variable(u[i], lane(i)) : Dual(u[i]);
-      const Dual y = replayWithTime<Dual>(scene, path, x);
+      const Dual y = replayAt<Dual>(scene, path, x);
       result.value = y.v;
       for (int i = 0; i < n; ++i) {
         if (lane(i) < 0) continue;

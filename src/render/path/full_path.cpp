@@ -137,6 +137,7 @@ bool toFull(const Scene& scene, const Path& path, FullPath& full) {
   full.edges = k;
   full.light = path.lightIndex;
   full.time = path.sample.time;
+  full.aperture = path.sample.aperture;
   full.filmX = path.filmX;
   full.filmY = path.filmY;
   full.infinite = false;
@@ -144,7 +145,7 @@ bool toFull(const Scene& scene, const Path& path, FullPath& full) {
 
   FullVertex& eye = full.x[at(k)];
   eye = FullVertex{};
-  eye.point.p = scene.camera.poseOf(full.time).position;
+  eye.point.p = scene.camera.poseOf(full.time, full.aperture).position;
   eye.point.ng = Vec3f(0);
   const int cameraVertices = path.escaped ? t - 2 : t - 1;
   for (int i = 1; i <= cameraVertices; ++i) setVertex(scene, path.camera[at(i)], full.x[at(k - i)]);

@@ -32,7 +32,8 @@ struct FullPath {
       lightPrimitive;     // as the light's choosePrimitive() says it; invalid without a surface
   bool infinite = false;  // the light is: the edge from x_1 goes along `escape`
   Vec3f escape{0};        // unit, towards an infinite light
-  float time = 0;         // as in PrimarySample
+  float time = 0;         // this and the next as in PrimarySample
+  std::array<float, 2> aperture{0.5f, 0.5f};
   float filmX = 0, filmY = 0;  // where the eye sees x_(k-1)
 
   const FullVertex& eye() const { return x[at(edges)]; }

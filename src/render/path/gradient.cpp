@@ -19,7 +19,7 @@ void block(const Scene& scene, const Path& path, const float* u, int first, Grad
   const int end = std::min(first + N, result.dimension);
   for (int i = 0; i < result.dimension; ++i)
     x[i] = i >= first && i < end ? D::variable(u[i], i - first) : D(u[i]);
-  const D y = replayWithTime<D>(scene, path, x);
+  const D y = replayAt<D>(scene, path, x);
   result.logTarget = y.v;
   for (int i = first; i < end; ++i) result.gradient[i] = y.gradient(i - first);
 }

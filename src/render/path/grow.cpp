@@ -44,7 +44,8 @@ bool isRough(const Scene& scene, PrimitiveId id, float z, float threshold) {
 }  // namespace
 
 bool Growth::leaveEye(float filmX, float filmY) {
-  const PathRay<float> ray = startCamera<float>(scene, filmX, filmY, &path.time);
+  const PathRay<float> ray =
+      startCamera<float>(scene, filmX, filmY, &path.time, path.aperture.data());
   return findOrEscape(scene, ray, path, path.edges - 1, true);
 }
 
@@ -112,9 +113,10 @@ bool joinable(const Scene& scene, const Path& path, int i, float threshold) {
   const bool end = ofCamera ? c == t - 1 : i == s - 1;
   if (!end && isDelta(scene.bsdfs, materialAt(scene, v.id), v.lobe)) return false;
   if (ofCamera) return isRough(scene, v.id, v.vertex.wi.z, threshold);
-  const Vec3f& next = !end    ? path.light[at(i) + 1].vertex.point.p
-                      : t > 1 ? path.camera[at(t) - 1].vertex.point.p
-                              : scene.camera.poseOf(path.sample.time).position;
+  const Vec3f& next = !end ? path.light[at(i) + 1].vertex.point.p
+                      : t > 1
+                          ? path.camera[at(t) - 1].vertex.point.p
+                          : scene.camera.poseOf(path.sample.time, path.sample.aperture).position;
   const SurfacePoint<float>& point = v.vertex.point;
   return isRough(scene, v.id, dot(point.shading.n, next - point.p), threshold);
 }

@@ -50,7 +50,9 @@ void differentiateLens(const Scene& scene, const Path& path, int reconnection, D
   const int last = technique.t - 1;
   const float* u = path.sample.u.data();
   const T time(path.sample.time);
-  PathRay<T> ray = startCamera<T>(scene, T::variable(u[0], 0), T::variable(u[1], 1), &time);
+  const T aperture[2] = {T(path.sample.aperture[0]), T(path.sample.aperture[1])};
+  PathRay<T> ray =
+      startCamera<T>(scene, T::variable(u[0], 0), T::variable(u[1], 1), &time, aperture);
   PathVertex<T> camera{}, light{};
   T logDensity(0);  // of the vertices whose sampling the film position changes, per area
   for (int i = 1; i <= last; ++i) {
@@ -81,7 +83,8 @@ void differentiateLens(const Scene& scene, const Path& path, int reconnection, D
   if (technique.s >= 2) light = constant(path.light[at(technique.s) - 1].vertex);
   const int offset = technique.lightOffset();
   const T direct[2] = {T(u[offset]), T(u[offset + 1])};
-  const T value = joinedLogTarget<T>(scene, path, ray, camera, light, direct, &time) + logDensity;
+  const T value =
+      joinedLogTarget<T>(scene, path, ray, camera, light, direct, &time, aperture) + logDensity;
 
   result.dimension = 2;
   result.logTarget = value.v;

@@ -75,7 +75,7 @@ void pickLightsByUse(Scene& scene) {
     const auto size = static_cast<float>(grid);
     path.sample.u[0] = (static_cast<float>(column) + random.uniform()) / size;
     path.sample.u[1] = (static_cast<float>(row) + random.uniform()) / size;
-    path.sample.time = scene.moving ? random.uniform() : 0;
+    drawShared(scene.shared(), random, path.sample);
     for (int i = 1; i <= kVertices && stepCamera(scene, path, i) == Step::kArrived; ++i) {
       const TracedVertex& v = path.camera[at(i)];
       if (hasNonDelta(scene.bsdfs, materialAt(scene, v.id)))

@@ -89,10 +89,15 @@ class LocalForm {
     return composition_.logSumExpOfSum(subpath.vc, reverse, subpath.vcm, factor, S(2));
   }
 
+  // A step of the camera's film position and, with kAperture, of the point of its lens, in this order.
+  template <bool kAperture>
+  auto fromFilm(int more = 0);
+  template <bool kAperture>
   void startCamera();
   void startLight();
   void scatter(Side side, int index);
   void passThrough(Side side, int index);
+  template <bool kAperture>
   void seeEnvironment();  // the camera's own ray escapes
   void scatterToEnvironment();
   void passToEnvironment();
@@ -100,6 +105,7 @@ class LocalForm {
   void connectToLight();
   void connectVertices();
   void countCancelledChord(const TracedVertex& cameraEnd, const TracedVertex& lightEnd);
+  template <bool kAperture>
   void connectToCamera();
   Variable finish();
 

@@ -21,7 +21,7 @@ class LocalForm<S, kMoving>::Step {
   Step(ad::Composition<S>& composition, const Path& path, const Variable (&inputs)[M], int more = 0)
       : composition_(composition) {
     std::copy_n(inputs, M, inputs_);
-    if constexpr (kMoving) inputs_[M] = path.technique.dimension();
+    if constexpr (kMoving) inputs_[M] = path.timeCoordinate();
     for (int i = 0; i < kInputs; ++i) x_[i] = D::variable(composition.value(inputs_[i]), i);
     outputs_ = composition.template outputs<kInputs>(kMostOutputs + more);
   }

@@ -7,10 +7,23 @@
 namespace h2mc {
 
 template <class S, bool kMoving>
+template <bool kAperture>
+auto LocalForm<S, kMoving>::fromFilm(int more) {
+  if constexpr (kAperture) {
+    const int a = path_.apertureCoordinate();
+    return Step<4>(composition_, path_, {0, 1, a, a + 1}, more);
+  } else {
+    return Step<2>(composition_, path_, {0, 1}, more);
+  }
+}
+
+template <class S, bool kMoving>
+template <bool kAperture>
 void LocalForm<S, kMoving>::startCamera() {
-  Step<2> step(composition_, path_, {0, 1}, 2 * passedFrom(Side::kCamera, 1));
-  using D = typename Step<2>::D;
-  const PathRay<D> ray = h2mc::startCamera<D>(scene_, step.x(0), step.x(1), step.time());
+  auto step = fromFilm<kAperture>(2 * passedFrom(Side::kCamera, 1));
+  using D = typename decltype(step)::D;
+  const PathRay<D> ray = h2mc::startCamera<D>(scene_, step.x(0), step.x(1), step.time(),
+                                              kAperture ? &step.x(2) : nullptr);
   const Leaving leaving = leave(step, ray.origin, ray.direction, ray.vcm, ray.fromInfinity,
                                 Side::kCamera, 1, camera_.chart);
   step.apply();
@@ -112,10 +125,12 @@ void LocalForm<S, kMoving>::passToEnvironment() {
 }
 
 template <class S, bool kMoving>
+template <bool kAperture>
 void LocalForm<S, kMoving>::seeEnvironment() {
-  Step<2> step(composition_, path_, {0, 1});
-  using D = typename Step<2>::D;
-  const PathRay<D> ray = h2mc::startCamera<D>(scene_, step.x(0), step.x(1), step.time());
+  auto step = fromFilm<kAperture>();
+  using D = typename decltype(step)::D;
+  const PathRay<D> ray = h2mc::startCamera<D>(scene_, step.x(0), step.x(1), step.time(),
+                                              kAperture ? &step.x(2) : nullptr);
   end(step, linkOfEnvironment<D>(scene_, ray.direction, path_.technique.t, kBoth), nullptr,
       nullptr);
 }
@@ -212,13 +227,24 @@ void LocalForm<S, kMoving>::connectVertices() {
 }
 
 template <class S, bool kMoving>
+template <bool kAperture>
 void LocalForm<S, kMoving>::connectToCamera() {
   const TracedVertex& here = lightVertex(path_.technique.s - 1);
-  Step<4> step(composition_, path_,
-               {light_.at, light_.at + 1, light_.direction, light_.direction + 1});
-  using D = typename Step<4>::D;
-  const Arrival<D> vertex = arrival(step, 0, light_, here);
-  end(step, linkToCamera<D>(scene_, vertex, here.id, step.time()), nullptr, &vertex.cosIn);
+  const auto connect = [&](auto&& step, const auto* aperture) {
+    using D = typename std::remove_cvref_t<decltype(step)>::D;
+    const Arrival<D> vertex = arrival(step, 0, light_, here);
+    end(step, linkToCamera<D>(scene_, vertex, here.id, step.time(), aperture), nullptr,
+        &vertex.cosIn);
+  };
+  const Variable at = light_.at, direction = light_.direction;
+  if constexpr (kAperture) {
+    const int a = path_.apertureCoordinate();
+    Step<6> step(composition_, path_, {at, at + 1, direction, direction + 1, a, a + 1});
+    connect(step, &step.x(4));
+  } else {
+    connect(Step<4>(composition_, path_, {at, at + 1, direction, direction + 1}),
+            static_cast<const typename Step<4>::D*>(nullptr));
+  }
 }
 
 // log(luminance of the channels) + log(1 / (1 + sum of terms^2)). Channels of the same factors are one.
@@ -257,7 +283,8 @@ auto LocalForm<S, kMoving>::logTarget(const S* u) -> Variable {
   composition_.begin(u, path_.dimension());
   const auto [s, t] = path_.technique;
   const int arrivals = lastVertex(Side::kCamera);
-  if (arrivals >= 1) startCamera();
+  const bool aperture = path_.aperture;
+  if (arrivals >= 1) aperture ? startCamera<true>() : startCamera<false>();
   const auto goOn = [&](Side side, int i) {
     vertexOf(side, i).lobe.null ? passThrough(side, i) : scatter(side, i);
   };
@@ -267,7 +294,7 @@ auto LocalForm<S, kMoving>::logTarget(const S* u) -> Variable {
     for (int i = 1; i < s - 1; ++i) goOn(Side::kLight, i);
   }
   if (path_.escaped && arrivals == 0)
-    seeEnvironment();
+    aperture ? seeEnvironment<true>() : seeEnvironment<false>();
   else if (path_.escaped)
     cameraVertex(arrivals).lobe.null ? passToEnvironment() : scatterToEnvironment();
   else if (s == 0)
@@ -275,7 +302,7 @@ auto LocalForm<S, kMoving>::logTarget(const S* u) -> Variable {
   else if (s == 1)
     connectToLight();
   else if (t == 1)
-    connectToCamera();
+    aperture ? connectToCamera<true>() : connectToCamera<false>();
   else
     connectVertices();
   return finish();

@@ -89,7 +89,7 @@ PrimitiveId nextPrimitive(const Scene& scene, const PathRay<float>& ray, bool fr
                           float time) {
   float nearest = 0, farthest = RayTracer::kFar;
   if (fromCamera) {
-    const float cosine = dot(scene.camera.poseOf(time).forward, ray.direction);
+    const float cosine = dot(scene.camera.forwardOf(time), ray.direction);
     nearest = scene.camera.nearClip / cosine;
     farthest = scene.camera.farClip / cosine;
   }
@@ -121,9 +121,9 @@ bool lightVisible(const Scene& scene, const SurfacePoint<float>& point, int ligh
   return timedQuery([&] { return scene.tracer->visible(point.end(), end, time); });
 }
 
-bool cameraVisible(const Scene& scene, const SurfacePoint<float>& point, float time, float& filmX,
-                   float& filmY) {
-  const CameraPose<float> pose = scene.camera.poseOf(time);
+bool cameraVisible(const Scene& scene, const SurfacePoint<float>& point, float time,
+                   const std::array<float, 2>& aperture, float& filmX, float& filmY) {
+  const CameraPose<float> pose = scene.camera.poseOf(time, aperture);
   return cameraSees(scene, pose, point, filmX, filmY) && timedQuery([&] {
            return scene.tracer->visible(point.end(), {onNearPlane(scene.camera, pose, point.p)},
                                         time);
@@ -150,7 +150,8 @@ Step stepCamera(const Scene& scene, Path& path, int i) {
   if (i == 1) {
     path.filmX = path.sample.u[0];
     path.filmY = path.sample.u[1];
-    ray = startCamera<float>(scene, path.filmX, path.filmY, &path.sample.time);
+    ray = startCamera<float>(scene, path.filmX, path.filmY, &path.sample.time,
+                             path.sample.aperture.data());
   } else {
     ray = scatter(scene, path, path.camera[at(i) - 1], technique.cameraCoordinate(i - 1),
                   path.sample.choice[at(technique.cameraChoice(i - 1))], Side::kCamera);
@@ -228,6 +229,7 @@ namespace {
 Joined joinEnds(const Scene& scene, const Ends& ends, bool cast) {
   const auto [s, t] = ends.technique;
   constexpr auto kBoth = Techniques::kBidirectional;
+  const float time = ends.sample->time;
   Joined joined;
   bool visible = true;
   if (s == 0) {
@@ -239,30 +241,33 @@ Joined joinEnds(const Scene& scene, const Ends& ends, bool cast) {
     if (light < 0) return joined;
     const PathVertex<float>& v = ends.camera->vertex;
     finish(hitAreaLight<float>(scene, v, -v.point.shading.toWorld(v.wi), light, t, kBoth,
-                               ends.camera->id, &ends.time),
+                               ends.camera->id, &time),
            joined);
     return joined;
   }
   if (s == 1) {
     DirectLight<float> direct;
     finish(connectToLight<float>(scene, ends.camera->vertex, ends.camera->id, ends.lightIndex,
-                                 ends.lightPrimitive, ends.u0, ends.u1, kBoth, direct, &ends.time),
+                                 ends.lightPrimitive, ends.u0, ends.u1, kBoth, direct, &time),
            joined);
     if (dark(joined.contribution)) return joined;
     visible =
-        !cast || lightVisible(scene, ends.camera->vertex.point, ends.lightIndex, direct, ends.time);
+        !cast || lightVisible(scene, ends.camera->vertex.point, ends.lightIndex, direct, time);
   } else if (t == 1) {
-    finish(connectToCamera<float>(scene, ends.light->vertex, ends.light->id, &ends.time), joined);
+    const std::array<float, 2>& aperture = ends.sample->aperture;
+    finish(
+        connectToCamera<float>(scene, ends.light->vertex, ends.light->id, &time, aperture.data()),
+        joined);
     if (dark(joined.contribution)) return joined;
     const SurfacePoint<float>& point = ends.light->vertex.point;
-    visible =
-        cast ? cameraVisible(scene, point, ends.time, joined.filmX, joined.filmY)
-             : cameraSees(scene, scene.camera.poseOf(ends.time), point, joined.filmX, joined.filmY);
+    visible = cast ? cameraVisible(scene, point, time, aperture, joined.filmX, joined.filmY)
+                   : cameraSees(scene, scene.camera.poseOf(time, aperture), point, joined.filmX,
+                                joined.filmY);
   } else {
     const TracedVertex &camera = *ends.camera, &light = *ends.light;
     finish(connectVertices<float>(scene, camera.vertex, camera.id, light.vertex, light.id), joined);
     if (dark(joined.contribution)) return joined;
-    visible = !cast || pointsVisible(scene, camera.vertex.point, light.vertex.point, ends.time);
+    visible = !cast || pointsVisible(scene, camera.vertex.point, light.vertex.point, time);
   }
   if (!visible) joined.contribution = Rgbf(0);
   return joined;
@@ -277,7 +282,7 @@ bool joinPath(const Scene& scene, Path& path, bool cast) {
   const Joined joined = joinEnds(
       scene,
       {path.technique, path.escaped ? nullptr : camera, light, &path.lastRay, path.lightIndex,
-       path.lightPrimitive, direct ? u[0] : 0, direct ? u[1] : 0, path.sample.time},
+       path.lightPrimitive, direct ? u[0] : 0, direct ? u[1] : 0, &path.sample},
       cast);
   if (s == 0)
     path.lightIndex = path.escaped ? scene.environmentAt(path.lastRay.direction)
@@ -290,6 +295,7 @@ bool joinPath(const Scene& scene, Path& path, bool cast) {
   path.contribution = joined.contribution;
   path.target = luminance(joined.contribution);
   path.moving = touchesMotion(scene, path);
+  path.aperture = scene.camera.hasAperture();
   return path.target > 0;
 }
 
@@ -302,7 +308,7 @@ bool joinVisible(const Scene& scene, Path& path) { return joinPath(scene, path, 
 void Path::archive(Archive& archive) {
   const std::size_t sizes[] = {camera.size(), light.size()};
   archive(technique, sample, camera, light, lightIndex, lightPrimitive, escaped, lastRay, wraps,
-          moving, filmX, filmY, contribution, target, finite);
+          moving, aperture, filmX, filmY, contribution, target, finite);
   if (camera.size() != sizes[0] || light.size() != sizes[1])
     throw ArchiveError("it has paths of another length");
 }

@@ -36,6 +36,7 @@ struct Path {
   PathRay<float> lastRay;    // that edge, or the one that has hit a light
   CoordinateMask wraps = 0;  // coordinates that are angles, or that nothing depends on
   bool moving = false;       // anything that it touches moves: it depends on sample.time
+  bool aperture = false;     // the camera has a lens: it depends on sample.aperture
 
   // Result.
   float filmX = 0, filmY = 0;
@@ -45,18 +46,22 @@ struct Path {
 
   void archive(Archive& archive);
 
-  // Continuous coordinates that it depends on: the technique's, then time where it is `moving`.
-  int dimension() const { return technique.dimension() + (moving ? 1 : 0); }
+  SharedCoordinates shared() const { return {aperture, moving}; }
+  // Continuous coordinates that it depends on: the technique's, then the shared ones.
+  int dimension() const { return technique.dimension() + shared().count(); }
+  // Where the aperture's two and time are among them, if there.
+  int apertureCoordinate() const { return technique.dimension(); }
+  int timeCoordinate() const { return technique.dimension() + (aperture ? 2 : 0); }
 };
 
 // Coordinates of the longest path there is.
-inline constexpr int kMaxCoordinates = 2 * kMaxPathLength + 1;
+inline constexpr int kMaxCoordinates = 2 * kMaxPathLength + kMostShared;
 
-// The path.dimension() coordinates that it is at, time last.
+// The path.dimension() coordinates that it is at.
 template <class S>
 void pathCoordinates(const Path& path, S* u) {
   std::copy_n(path.sample.u.begin(), path.technique.dimension(), u);
-  if (path.moving) u[path.technique.dimension()] = S(path.sample.time);
+  getShared(path.shared(), path.sample, u + path.technique.dimension());
 }
 
 // Traces `path.technique` at `path.sample` and fills in the rest. Returns target > 0.
@@ -89,13 +94,13 @@ PrimitiveId pickPrimitive(const Scene& scene, int light, float choice);
 // What a technique's last step needs; members that the technique lacks are not looked at.
 struct Ends {
   Technique technique;
-  const TracedVertex* camera;  // the camera subpath's last vertex; null: escaped
-  const TracedVertex* light;   // s >= 2
-  const PathRay<float>* ray;   // the edge that escaped
-  int lightIndex;              // s >= 1
-  PrimitiveId lightPrimitive;  // s = 1
-  float u0, u1;                // s = 1
-  float time;                  // as in PrimarySample
+  const TracedVertex* camera;   // the camera subpath's last vertex; null: escaped
+  const TracedVertex* light;    // s >= 2
+  const PathRay<float>* ray;    // the edge that escaped
+  int lightIndex;               // s >= 1
+  PrimitiveId lightPrimitive;   // s = 1
+  float u0, u1;                 // s = 1
+  const PrimarySample* sample;  // for what techniques share
 };
 struct Joined {
   Rgbf contribution{0};
@@ -109,8 +114,8 @@ Joined join(const Scene& scene, const Ends& ends);
 bool lightVisible(const Scene& scene, const SurfacePoint<float>& point, int light,
                   const DirectLight<float>& direct, float time);
 // Whether the camera sees `point`, and where on the film: from its near clipping plane on, as its rays do.
-bool cameraVisible(const Scene& scene, const SurfacePoint<float>& point, float time, float& filmX,
-                   float& filmY);
+bool cameraVisible(const Scene& scene, const SurfacePoint<float>& point, float time,
+                   const std::array<float, 2>& aperture, float& filmX, float& filmY);
 
 bool pointEscapes(const Scene& scene, const SurfacePoint<float>& point, const Vec3f& direction,
                   float time);

@@ -34,7 +34,7 @@ Edge edgeAt(const Scene& scene, const FullPath& path, int i) {
   e.cosCamera = cosine(path.x[at(i)]);
   e.cosLight = cosine(path.x[at(i) - 1]);
   // The eye has no surface, but a direction of view, which its density per solid angle depends on.
-  if (i == path.edges) e.cosCamera = dot(scene.camera.poseOf(path.time).forward, e.toLight);
+  if (i == path.edges) e.cosCamera = dot(scene.camera.forwardOf(path.time), e.toLight);
   return e;
 }
 

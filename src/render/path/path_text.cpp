@@ -34,6 +34,8 @@ std::string pathText(const Technique& technique, const PrimarySample& sample) {
   text += " choice=";
   for (int i = 0; i < technique.choices(); ++i)
     text += fmt::format("{}{:a}", i ? "," : "", sample.choice[at(i)]);
+  if (sample.aperture != PrimarySample().aperture)
+    text += fmt::format(" aperture={:a},{:a}", sample.aperture[0], sample.aperture[1]);
   if (sample.time > 0) text += fmt::format(" time={:a}", sample.time);
   return text;
 }
@@ -44,9 +46,10 @@ std::string parsePathText(const std::string& text, Technique& technique, Primary
   for (std::string item; stream >> item;) {
     const std::size_t equals = item.find('=');
     const std::string name = item.substr(0, equals);
-    if (equals == std::string::npos ||
-        (name != "s" && name != "t" && name != "u" && name != "choice" && name != "time"))
-      return "expected \"s=.. t=.. u=..,.. choice=..,.. [time=..]\", got \"" + item + "\"";
+    if (equals == std::string::npos || (name != "s" && name != "t" && name != "u" &&
+                                        name != "choice" && name != "aperture" && name != "time"))
+      return "expected \"s=.. t=.. u=..,.. choice=..,.. [aperture=..,..] [time=..]\", got \"" +
+             item + "\"";
     parts[name] = item.substr(equals + 1);
   }
   for (const char* name : {"s", "t", "u"})
@@ -62,7 +65,7 @@ std::string parsePathText(const std::string& text, Technique& technique, Primary
       technique.length() < 1 || technique.length() > kMaxPathLength || technique == Technique{1, 1})
     return fmt::format("there is no technique s={} t={} of 1 to {} edges", parts["s"], parts["t"],
                        kMaxPathLength);
-  std::vector<float> u, choice, time;
+  std::vector<float> u, choice, aperture, time;
   if (!parseNumbers(parts["u"], u)) return "u: expected numbers in [0, 1) with commas between";
   if (!parseNumbers(parts["choice"], choice))
     return "choice: expected numbers in [0, 1) with commas between";
@@ -72,9 +75,12 @@ std::string parsePathText(const std::string& text, Technique& technique, Primary
   if (static_cast<int>(choice.size()) != technique.choices())
     return fmt::format("s={} t={} has {} choices, got {}", technique.s, technique.t,
                        technique.choices(), choice.size());
+  if (!parseNumbers(parts["aperture"], aperture) || (!aperture.empty() && aperture.size() != 2))
+    return "aperture: expected two numbers in [0, 1) with a comma between";
   if (!parseNumbers(parts["time"], time) || time.size() > 1)
     return "time: expected a number in [0, 1)";
   sample = {};
+  if (!aperture.empty()) sample.aperture = {aperture[0], aperture[1]};
   if (!time.empty()) sample.time = time[0];
   std::copy(u.begin(), u.end(), sample.u.begin());
   std::copy(choice.begin(), choice.end(), sample.choice.begin());

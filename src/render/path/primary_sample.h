@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 
+#include "render/core/random.h"
+#include "render/core/shared_coordinates.h"
 #include "render/core/types.h"
 
 namespace h2mc {
@@ -39,15 +41,38 @@ struct Technique {
 // place the point on the light, for s >= 2 four that place and direct the emitted ray and two for
 // each scattering. `choice` holds the discrete decisions: lobes, and the light with its primitive.
 // Where anything in the scene moves, `time` is one more continuous coordinate, of every technique: it
-// is drawn uniformly whatever the technique, so that it is in no density that MIS compares.
+// is drawn uniformly whatever the technique, so that it is in no density that MIS compares. A camera with a lens has
+// two more of that kind: where the path goes through the aperture.
 struct PrimarySample {
   std::array<float, 2 * kMaxPathLength> u;
   std::array<float, kMaxPathLength + 1> choice;
+  std::array<float, 2> aperture{0.5f, 0.5f};  // its centre for a pinhole
   float time = 0;  // the moment of the shutter's opening; 0 in a scene in which nothing moves
 };
+
+// Copies the shared coordinates, there.count() numbers, from a sample and into one.
+template <class S>
+void getShared(const SharedCoordinates& there, const PrimarySample& sample, S* x) {
+  if (there.aperture)
+    for (const float a : sample.aperture) *x++ = S(a);
+  if (there.time) *x = S(sample.time);
+}
+inline void setShared(const SharedCoordinates& there, const float* x, PrimarySample& sample) {
+  if (there.aperture)
+    for (float& a : sample.aperture) a = *x++;
+  if (there.time) sample.time = *x;
+}
 
 // Coordinates where 0 and 1 are the same point, as bits.
 using CoordinateMask = std::uint64_t;
 static_assert(2 * kMaxPathLength <= 64);
+
+// Draws those that there are; sets the others to what they are where they make no difference.
+inline void drawShared(const SharedCoordinates& there, Random& random, PrimarySample& sample) {
+  sample.aperture = {0.5f, 0.5f};
+  if (there.aperture)
+    for (float& a : sample.aperture) a = random.uniform();
+  sample.time = there.time ? random.uniform() : 0;
+}
 
 }  // namespace h2mc

@@ -8,12 +8,13 @@
 namespace h2mc {
 
 // The log of the target (luminance of the MIS-weighted contribution over its density) as a function
-// of all of the path's primary coordinates `u`, in the scalar T, and of time (which may be null if
-// !path.moving). The oracle for derivatives: T = double and finite differences, or a dual with every
-// coordinate active from the start.
+// of all of the path's primary coordinates `u`, in the scalar T, of time (which may be null if
+// !path.moving) and of the aperture's two (if !path.aperture). The oracle for derivatives: T = double and
+// finite differences, or a dual with every coordinate active from the start.
 template <class T>
 T replayLogTarget(const Scene& scene, const Path& path, const T* u,
-                  const std::type_identity_t<T>* time = nullptr);
+                  const std::type_identity_t<T>* time = nullptr,
+                  const std::type_identity_t<T>* aperture = nullptr);
 
 // The ray that leaves the subpath's vertex `index`, where the ray `arrived` has arrived.
 template <class T>
@@ -30,7 +31,8 @@ PathRay<T> replayScatter(const Scene& scene, const Path& path, Side side, int in
 template <class T>
 T joinedLogTarget(const Scene& scene, const Path& path, const PathRay<T>& cameraRay,
                   const PathVertex<T>& camera, const PathVertex<T>& light, const T* u,
-                  const std::type_identity_t<T>* time = nullptr) {
+                  const std::type_identity_t<T>* time = nullptr,
+                  const std::type_identity_t<T>* aperture = nullptr) {
   const auto [s, t] = path.technique;
   const PrimitiveId cameraId = path.camera[at(t) - 1].id;
   const PrimitiveId lightId = s >= 2 ? path.light[at(s) - 1].id : PrimitiveId{};
@@ -45,7 +47,7 @@ T joinedLogTarget(const Scene& scene, const Path& path, const PathRay<T>& camera
     c = connectToLight<T>(scene, camera, cameraId, path.lightIndex, path.lightPrimitive, u[0], u[1],
                           kBoth, direct, time);
   } else if (t == 1) {
-    c = connectToCamera<T>(scene, light, lightId, time);
+    c = connectToCamera<T>(scene, light, lightId, time, aperture);
   } else {
     c = connectVertices<T>(scene, camera, cameraId, light, lightId);
   }
@@ -54,12 +56,12 @@ T joinedLogTarget(const Scene& scene, const Path& path, const PathRay<T>& camera
 
 template <class T>
 T replayLogTarget(const Scene& scene, const Path& path, const T* u,
-                  const std::type_identity_t<T>* time) {
+                  const std::type_identity_t<T>* time, const std::type_identity_t<T>* aperture) {
   const Technique& technique = path.technique;
   PathRay<T> ray{};
   PathVertex<T> camera{}, light{};
   if (technique.t >= 2) {
-    ray = startCamera<T>(scene, u[0], u[1], time);
+    ray = startCamera<T>(scene, u[0], u[1], time, aperture);
     for (int i = 1; i < technique.t; ++i) {
       if (i > 1) {
         const T* v = u + technique.cameraCoordinate(i - 1);
@@ -81,13 +83,14 @@ T replayLogTarget(const Scene& scene, const Path& path, const T* u,
       light = arriveAt<T>(scene, emitted, path.light[at(i)].id, time);
     }
   }
-  return joinedLogTarget<T>(scene, path, ray, camera, light, lightU, time);
+  return joinedLogTarget<T>(scene, path, ray, camera, light, lightU, time, aperture);
 }
 
-// The same of path.dimension() coordinates: time is the last where the path depends on it.
+// The same of path.dimension() coordinates.
 template <class T>
-T replayWithTime(const Scene& scene, const Path& path, const T* u) {
-  return replayLogTarget<T>(scene, path, u, path.moving ? u + path.technique.dimension() : nullptr);
+T replayAt(const Scene& scene, const Path& path, const T* u) {
+  return replayLogTarget<T>(scene, path, u, path.moving ? u + path.timeCoordinate() : nullptr,
+                            path.aperture ? u + path.apertureCoordinate() : nullptr);
 }
 
 }  // namespace h2mc

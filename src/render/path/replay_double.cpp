@@ -6,7 +6,7 @@
 namespace h2mc {
 
 double replayInDouble(const Scene& scene, const Path& path, const double* u) {
-  return replayWithTime<double>(scene, path, u);
+  return replayAt<double>(scene, path, u);
 }
 
 }  // namespace h2mc

@@ -4,7 +4,8 @@
 // the derivatives of what was traced, on the frozen topology.
 //
 // `time` is the moment of the shutter's opening, in [0, 1]. It may be null where nothing that the path
-// touches moves: nothing then depends on it, and no derivative is wasted on it.
+// touches moves: nothing then depends on it, and no derivative is wasted on it. `aperture` are the two
+// coordinates of a point of the camera's lens; null where it has none.
 //
 // MIS weights follow the recursive form of Georgiev 2012 ("Implementing Vertex Connection and
 // Merging", eqs. 31-40) for the power heuristic with exponent 2. Where the report squares every
@@ -119,17 +120,20 @@ inline const Material& materialAt(const Scene& scene, PrimitiveId id) {
   return scene.materials[at(scene.shapes[id.shape].material)];
 }
 
-// Calls f with the camera's pose: plain numbers where it stands still, functions of time otherwise.
+// Calls f with the camera's pose: plain numbers where it stands still and is a pinhole, functions of time and of the
+// point of its aperture otherwise.
 template <class T, class F>
-auto withCameraPose(const Scene& scene, const T* time, F&& f) {
-  if (scene.camera.moves()) return f(scene.camera.poseAt(*time));
+auto withCameraPose(const Scene& scene, const T* time, const T* aperture, F&& f) {
+  if (scene.camera.moves() || scene.camera.hasAperture())
+    return f(scene.camera.poseAt(time, aperture));
   return f(scene.camera.pose<Scalar<T>>());
 }
 
 template <class T>
 PathRay<T> startCamera(const Scene& scene, const T& filmX, const T& filmY,
-                       const std::type_identity_t<T>* time = nullptr) {
-  return withCameraPose<T>(scene, time, [&](const auto& pose) {
+                       const std::type_identity_t<T>* time = nullptr,
+                       const std::type_identity_t<T>* aperture = nullptr) {
+  return withCameraPose<T>(scene, time, aperture, [&](const auto& pose) {
     PathRay<T> ray;
     ray.origin = liftFrom<T>(pose.position);
     ray.direction = scene.camera.direction(pose, filmX, filmY);

@@ -13,6 +13,7 @@
 #include "render/bsdf/bsdf.h"
 #include "render/camera/camera.h"
 #include "render/camera/film_settings.h"
+#include "render/core/shared_coordinates.h"
 #include "render/geometry/shape.h"
 #include "render/light/light.h"
 #include "render/light/light_picker.h"
@@ -62,6 +63,8 @@ struct Scene {
   std::vector<int> sunLights;
   std::vector<SkyDisc> suns;
 
+  // The coordinates that all paths have besides their technique's.
+  SharedCoordinates shared() const { return {camera.hasAperture(), moving}; }
   LightContext lightContext() const { return {shapes, bounds, suns}; }
   // Whether there is light where a ray leaves the scene, and which, in a direction; -1 for none.
   bool hasEnvironment() const { return environment >= 0 || !suns.empty(); }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "render/core/index.h"
@@ -126,9 +127,8 @@ class SceneReader {
       attempt([&] {
         readSensor(context_, *sensor_, options_);
         const Camera& camera = context_.scene.camera;
-        checkExtent(
-            *sensor_, "the camera",
-            std::max(farthest(camera.poseOf(0).position), farthest(camera.poseOf(1).position)));
+        checkExtent(*sensor_, "the camera",
+                    std::max(farthest(eye(camera, 0)), farthest(eye(camera, 1))));
         checkAxes(*sensor_, camera);
       });
     for (const XmlElement& child : root_.children)
@@ -157,10 +157,15 @@ class SceneReader {
     }
   }
 
+  static constexpr std::array<float, 2> kCentre{0.5f, 0.5f};  // of the aperture
+  static Vec3f eye(const Camera& camera, float time) {
+    return camera.poseOf(time, kCentre).position;
+  }
+
   // Their lengths do not matter, but squares of 1e-25 are nothing in float, and those of 1e25 no number.
   static void checkAxes(const XmlElement& element, const Camera& camera) {
     for (const float time : {0.f, 1.f}) {
-      const CameraPose<float> pose = camera.poseOf(time);
+      const CameraPose<float> pose = camera.poseOf(time, kCentre);
       for (const Vec3f& axis : {pose.left, pose.up, pose.forward})
         if (!(std::abs(glm::length(axis) - 1) < 0.1f))
           throw sourceError(element.place(), "the camera's transform leaves nothing of its axes",

@@ -2,6 +2,8 @@
 // The camera, its film and its sampler.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -40,7 +42,16 @@ constexpr Parameter kPerspective[] = {
     {"principalPointOffsetX", kNumber, "0", "must be 0"},
     {"principalPointOffsetY", kNumber, "0", "must be 0"},
     ignoredParameter("focusDistance", kNumber)};
-constexpr Entry kSensors[] = {{"perspective", kPerspective}};
+constexpr auto kThinLens = [] {
+  constexpr std::size_t kOthers = std::size(kPerspective) - 1;
+  std::array<Parameter, kOthers + 2> all{};
+  std::copy_n(kPerspective, kOthers, all.begin());
+  all[kOthers] = {"apertureRadius", kNumber, "", "of the lens, from 0 on; 0 is a pinhole"};
+  all[kOthers + 1] = {"focusDistance", kNumber, "10000",
+                      "of the plane in focus along the axis; farClip where it is not given"};
+  return all;
+}();
+constexpr Entry kSensors[] = {{"perspective", kPerspective}, {"thinlens", kThinLens}};
 
 constexpr Parameter kFilm[] = {{"width", kInteger, "768", "pixels"},
                                {"height", kInteger, "576", "pixels"},
@@ -205,6 +216,17 @@ int readSampler(ReaderContext& context, const XmlElement& element) {
   return integerIn(p, "sampleCount", 0, std::numeric_limits<int>::max());
 }
 
+// What a thin lens has more than a pinhole.
+void readLens(const ElementProperties& p, Camera& camera) {
+  if (!p.given("apertureRadius"))
+    p.fail("apertureRadius", "\"apertureRadius\" is missing",
+           "expected the radius of the lens, 0 for a pinhole");
+  const float radius = numberIn(p, "apertureRadius", 0, kFarthest);
+  const float distance =
+      p.given("focusDistance") ? numberAbove0(p, "focusDistance", kFarthest) : camera.farClip;
+  if (radius > 0) camera.focus(radius, distance);
+}
+
 // Field of view of a 35 mm film's diagonal, degrees.
 float fovOfFocalLength(const ElementProperties& p) {
   std::string text = p.string("focalLength");
@@ -295,6 +317,7 @@ void readSensor(ReaderContext& context, const XmlElement& element, const ReadOpt
   scene.camera.farClip = numberAbove0(p, "farClip", kFarthest);
   if (!(scene.camera.nearClip < scene.camera.farClip))
     p.fail("farClip", "farClip must be larger than nearClip");
+  if (entry.name == "thinlens") readLens(p, scene.camera);
 }
 
 }  // namespace h2mc
