@@ -97,7 +97,7 @@ void printLights(const Scene& scene) {
 
 void printCamera(const Scene& scene) {
   const Camera& camera = scene.camera;
-  std::string kind = "perspective";
+  std::string kind = camera.isParallel() ? "orthographic" : "perspective";
   if (camera.hasAperture())
     kind = fmt::format("thin lens of radius {:g}, in focus at {:g},", camera.apertureRadius(),
                        camera.focusDistance());

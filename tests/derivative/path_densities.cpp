@@ -8,8 +8,8 @@
 
 #include <cmath>
 
+#include "exactness_scenes.h"
 #include "gallery_scenes.h"
-#include "motion_scenes.h"
 #include "render/core/index.h"
 #include "render/path/assemble.h"
 #include "render/path/reconnect.h"
@@ -172,8 +172,9 @@ class DensityJacobian : public ::testing::TestWithParam<std::string> {
  protected:
   Scene scene() {
     const std::string moving = halfMovingScene(0, 1, true);
-    return GetParam() == "motion" ? folder_.read(moving)
-           : GetParam() == "lens" ? folder_.read(withThinLens(moving, 0.2, 6))
+    return GetParam() == "motion"     ? folder_.read(moving)
+           : GetParam() == "parallel" ? folder_.read(seenInParallel(skyScene(), 1.4))
+           : GetParam() == "lens"     ? folder_.read(withThinLens(moving, 0.2, 6))
                                   : galleryScene(folder_, galleryLights(folder_).at(GetParam()));
   }
   testing::SceneFolder folder_;
@@ -219,14 +220,15 @@ TEST_P(DensityJacobian, IsOneOverTheDensity) {
   EXPECT_LE(plain.apart, plain.paths / 100);
   EXPECT_GT(refracted.paths, 20);
   EXPECT_LE(refracted.apart, 1 + refracted.paths / 100);
-  // Balls of glass turn back what they have turned; those with shading normals do not. The moving scene has none.
-  if (GetParam() != "motion" && GetParam() != "lens") {
+  // Balls of glass turn back what they have turned; those with shading normals do not. The other scenes have none.
+  if (GetParam() != "motion" && GetParam() != "lens" && GetParam() != "parallel") {
     EXPECT_GT(mistaken.apart, 3 + 3 * refracted.apart);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Gallery, DensityJacobian,
-                         ::testing::Values("area", "points", "infinite", "sky", "motion", "lens"),
+                         ::testing::Values("area", "points", "infinite", "sky", "motion", "lens",
+                                           "parallel"),
                          [](const auto& info) { return info.param; });
 
 }  // namespace

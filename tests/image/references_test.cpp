@@ -96,7 +96,8 @@ std::vector<Case> cases() {
                             "sun",
                             "sunsky",
                             "instance",
-                            "thinlens"}) {
+                            "thinlens",
+                            "orthographic"}) {
     const std::string name = scene;
     list.push_back({name,
                     "path",

@@ -101,7 +101,7 @@ inline std::vector<ExactnessScene> exactnessScenes() {
   return {{"room", roomScene(), 4},
           {"moving", withThinLens(halfMovingScene(0, 1, true, 16, 12), 0.2, 6), 4},
           {"glass", withThinLens(glassScene(), 0.15, 4), 5},
-          {"sky", skyScene(), 4}};
+          {"sky", seenInParallel(skyScene(), 1.4), 4}};
 }
 
 }  // namespace h2mc::test

@@ -15,6 +15,19 @@ inline std::string withThinLens(std::string scene, double radius, double focus) 
                            std::to_string(focus) + "\"/>");
 }
 
+// The scene seen by an orthographic camera, its film of this half width.
+inline std::string seenInParallel(std::string scene, double halfWidth) {
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    scene.replace(scene.find(from), from.size(), to);
+  };
+  const std::string size = std::to_string(halfWidth);
+  replace("<sensor type=\"perspective\"><transform name=\"toWorld\">",
+          "<sensor type=\"orthographic\"><transform name=\"toWorld\"><scale x=\"" + size +
+              "\" y=\"" + size + "\"/>");
+  const std::size_t fov = scene.find("<float name=\"fov\"");
+  return scene.erase(fov, scene.find("/>", fov) + 2 - fov);
+}
+
 // Everything that can move does: a glossy cube that turns, a sphere, a lamp that turns and grows, a disk
 // that tilts, a camera that travels and turns; but the floor, a box and a second lamp stand still.
 // Half of the picture shows what does not move. `open` and `close`: the shutter.

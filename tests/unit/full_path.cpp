@@ -28,6 +28,9 @@ class PathSpace : public ::testing::TestWithParam<std::string> {
       scene_ = std::make_unique<Scene>(readScene(name, options));
     } else if (name == "motion") {
       scene_ = std::make_unique<Scene>(folder_.read(halfMovingScene(0, 1, true)));
+    } else if (name == "parallel") {
+      scene_ =
+          std::make_unique<Scene>(folder_.read(seenInParallel(halfMovingScene(0, 0, false), 2.5)));
     } else if (name == "lens") {
       scene_ =
           std::make_unique<Scene>(folder_.read(withThinLens(halfMovingScene(0, 1, true), 0.2, 6)));
@@ -134,7 +137,8 @@ TEST_P(PathSpace, CastEdgesAreThoseThatTracingFinds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Gallery, PathSpace,
-                         ::testing::Values("area", "points", "infinite", "sky", "motion", "lens"),
+                         ::testing::Values("area", "points", "infinite", "sky", "motion", "lens",
+                                           "parallel"),
                          nameOf);
 INSTANTIATE_TEST_SUITE_P(SlowScenes, PathSpace, ::testing::ValuesIn(sceneFiles()), nameOf);
 

@@ -78,7 +78,7 @@ double magnification(const Scene& scene, const Path& path) {
   const int last = path.escaped ? t - 2 : t - 1;
   if (last >= 1) {
     const TracedVertex& first = path.camera[1];
-    const Vec3f eye = scene.camera.poseOf(path.sample.time, path.sample.aperture).position;
+    const Vec3f& eye = first.vertex.line.origin;
     most = std::max(most, size(first) / glm::distance(eye, first.vertex.point.p));
   }
   for (int i = 1; i < last; ++i) look(path.camera[at(i)], path.camera[at(i) + 1]);

@@ -11,7 +11,8 @@ namespace {
 // Angles stay below this, in radians.
 constexpr double kLargestAngle = 1.5;
 
-double radiansPerPixel(const Scene& scene) {
+// In radians; of a parallel camera, in the world's unit.
+double sizeOfPixel(const Scene& scene) {
   return std::sqrt(double(scene.camera.filmArea()) /
                    (double(scene.film.width) * scene.film.height));
 }
@@ -23,13 +24,13 @@ CausticPerturbation::CausticPerturbation(const PathTarget& target, float thresho
     : target_(target),
       threshold_(threshold),
       angles_(pixelsMoved(double(target.scene().film.width) * target.scene().film.height)
-                  .times(radiansPerPixel(target.scene()))),
+                  .times(sizeOfPixel(target.scene()))),
       move_(target, slots) {}
 
 RadialLaw CausticPerturbation::lawAt(const FullPath& path, int l) const {
   const int k = path.edges;
-  float distance;
-  directionToLight(path, k, distance);
+  float distance = 1;
+  if (!path.parallel) directionToLight(path, k, distance);
   RadialLaw law = angles_.times(distance);
   if (l == 0 && path.infinite) return law;
   double length = 0;

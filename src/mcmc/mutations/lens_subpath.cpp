@@ -16,6 +16,8 @@ std::optional<Refusal> LensSubpath::trace(const FullPath& x, int r, Random& rand
   // The eye as far from the light as it can be: how many vertices there will be is not known.
   FullPath& traced = traced_;
   traced.edges = kMaxPathLength;
+  traced.parallel = x.parallel;
+  traced.view = x.view;
   traced.time = x.time;
   traced.aperture = x.aperture;
   traced.x[kMaxPathLength] = x.eye();
@@ -38,6 +40,8 @@ std::optional<Refusal> LensSubpath::trace(const FullPath& x, int r, Random& rand
 
   FullPath& y = move_.begin(x);
   y.edges = edges();
+  y.filmX = traced.filmX;
+  y.filmY = traced.filmY;
   std::copy_n(traced.x.begin() + last, kMaxPathLength - last + 1, y.x.begin() + r);
   if (!joinable(scene, y, r - 1, threshold_)) return Refusal::kStructure;
   return move_.free(r) ? std::nullopt : std::optional(Refusal::kBlocked);

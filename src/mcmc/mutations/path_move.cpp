@@ -39,6 +39,10 @@ FullPath& PathMove::begin(const FullPath& x) {
   to.lightPrimitive = x.lightPrimitive;
   to.infinite = x.infinite;
   to.escape = x.escape;
+  to.parallel = x.parallel;
+  to.view = x.view;
+  to.filmX = x.filmX;
+  to.filmY = x.filmY;
   to.time = x.time;
   to.aperture = x.aperture;
   return to;

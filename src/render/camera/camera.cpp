@@ -5,11 +5,23 @@
 
 namespace h2mc {
 
-Camera::Camera(const Mat4& toWorld, float fov, FovAxis axis, float aspect) {
+Camera::Camera(const Mat4& toWorld) {
   pose_.position = Vec3f(toWorld[3]);
   pose_.forward = glm::normalize(Vec3f(toWorld[2]));
   pose_.left = glm::normalize(Vec3f(toWorld[0]));
   pose_.up = glm::normalize(Vec3f(toWorld[1]));
+}
+
+Camera Camera::parallel(const Mat4& toWorld, float halfWidth, float halfHeight) {
+  Camera camera(toWorld);
+  camera.parallel_ = true;
+  camera.tanX_ = halfWidth;
+  camera.tanY_ = halfHeight;
+  camera.filmArea_ = 4 * halfWidth * halfHeight;
+  return camera;
+}
+
+Camera::Camera(const Mat4& toWorld, float fov, FovAxis axis, float aspect) : Camera(toWorld) {
   const double tangent = std::tan(0.5 * double(fov) * std::numbers::pi / 180);
   double tanX = tangent;
   switch (axis) {
@@ -51,12 +63,12 @@ void Camera::follow(const Motion& motion) {
   if (motion.moves()) motion_ = CameraMotion(motion);
 }
 
-bool Camera::project(const CameraPose<float>& pose, const Vec3f& direction, float& filmX,
+bool Camera::project(const CameraPose<float>& pose, const Vec3f& offset, float& filmX,
                      float& filmY) const {
-  const float z = dot(pose.forward, direction);
-  if (!(z > 0)) return false;
-  filmX = ((dot(pose.left, direction) / z - pose.shiftX) * (1 / tanX_) - 1) * -0.5f;
-  filmY = ((dot(pose.up, direction) / z - pose.shiftY) * (1 / tanY_) - 1) * -0.5f;
+  const float depth = dot(pose.forward, offset), z = parallel_ ? 1 : depth;
+  if (!(depth > 0)) return false;
+  filmX = ((dot(pose.left, offset) / z - pose.shiftX) * (1 / tanX_) - 1) * -0.5f;
+  filmY = ((dot(pose.up, offset) / z - pose.shiftY) * (1 / tanY_) - 1) * -0.5f;
   return filmX >= 0 && filmX < 1 && filmY >= 0 && filmY < 1;
 }
 

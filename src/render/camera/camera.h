@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A perspective camera: a pinhole, or a thin lens.
+// The camera: a pinhole, a thin lens, or one that sees along parallel rays.
 #pragma once
 
 #include <array>
@@ -21,6 +21,11 @@ class Camera {
   // ignored. fov in degrees along the axis; aspect = width / height.
   // Precondition: 0 < fov < 180, aspect > 0, toWorld invertible.
   Camera(const Mat4& toWorld, float fov, FovAxis axis, float aspect);
+
+  // Orthographic: all rays go along the axis, from a film of this half width and height in world space.
+  // Preconditions: both > 0, toWorld invertible.
+  static Camera parallel(const Mat4& toWorld, float halfWidth, float halfHeight);
+  bool isParallel() const { return parallel_; }
 
   // Leaves a window of the film, given by two corners in the coordinates of the whole one: from here on
   // film coordinates are the window's. Precondition: left < right, top < bottom. Call once.
@@ -56,12 +61,17 @@ class Camera {
   Vec3f forwardOf(float time) const { return moves() ? motion_.at(time).forward : pose_.forward; }
 
   // The unit direction through a point of the film, (0,0) its upper left and (1,1) its lower right
-  // corner.
+  // corner. Precondition: not parallel.
   template <class P, class T>
   Vec3<T> direction(const CameraPose<P>& pose, const T& filmX, const T& filmY) const {
-    const T x = (filmX * Scalar<T>(-2) + Scalar<T>(1)) * Scalar<T>(tanX_) + pose.shiftX;
-    const T y = (filmY * Scalar<T>(-2) + Scalar<T>(1)) * Scalar<T>(tanY_) + pose.shiftY;
-    return normalize(pose.left * x + pose.up * y + pose.forward);
+    const Vec2<T> at = onFilm(pose, filmX, filmY);
+    return normalize(pose.left * at.x + pose.up * at.y + pose.forward);
+  }
+  // Where the ray from there starts. Precondition: parallel.
+  template <class P, class T>
+  Vec3<T> origin(const CameraPose<P>& pose, const T& filmX, const T& filmY) const {
+    const Vec2<T> at = onFilm(pose, filmX, filmY);
+    return pose.left * at.x + pose.up * at.y + pose.position;
   }
   // Of a camera at rest.
   template <class T>
@@ -71,14 +81,16 @@ class Camera {
 
   // Density per solid angle of direction(u, v) for (u, v) uniform on the film, 1 / (A cos^3) with A
   // the film's area at unit distance; `cosine` > 0. It is the camera's importance as well, for a
-  // film of which every point counts the same.
+  // film of which every point counts the same. Of a parallel camera, whose cosines are 1: density of
+  // origin(u, v) per area.
   template <class T>
   T pdf(const T& cosine) const {
     return T(Scalar<T>(1 / filmArea_)) / (cosine * cosine * cosine);
   }
 
-  // The film position that sees along `direction` (any length); false when it is behind or beside.
-  bool project(const CameraPose<float>& pose, const Vec3f& direction, float& filmX,
+  // The film position that sees what lies `offset` away from the pose's position; false when it is behind or
+  // beside. Its length matters for parallel cameras alone.
+  bool project(const CameraPose<float>& pose, const Vec3f& offset, float& filmX,
                float& filmY) const;
 
   // At rest, or at its motion's beginning.
@@ -90,9 +102,18 @@ class Camera {
   float shutterOpen = 0, shutterClose = 0;  // in the unit of keyframes' times
 
  private:
+  explicit Camera(const Mat4& toWorld);
+  // Left and up from the axis: at unit distance, or of a parallel camera anywhere.
+  template <class P, class T>
+  Vec2<T> onFilm(const CameraPose<P>& pose, const T& filmX, const T& filmY) const {
+    return {(filmX * Scalar<T>(-2) + Scalar<T>(1)) * Scalar<T>(tanX_) + pose.shiftX,
+            (filmY * Scalar<T>(-2) + Scalar<T>(1)) * Scalar<T>(tanY_) + pose.shiftY};
+  }
+
   CameraPose<float> pose_{Vec3f(0), {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   CameraMotion motion_;
-  // At unit distance the film is the rectangle [-tan, tan] + the pose's shift.
+  bool parallel_ = false;
+  // At unit distance the film is the rectangle [-tan, tan] + the pose's shift; of a parallel camera anywhere.
   float tanX_ = 1, tanY_ = 1, filmArea_ = 4;
   float apertureRadius_ = 0, focusDistance_ = 1;
 };

@@ -108,7 +108,12 @@ bool Assembly::camera() {
   const Vec3f direction =
       straight ? full_.escape : full_.x[at(full_.edges) - 1].point.p - pose.position;
   float* u = path_.sample.u.data();
-  if (!scene_.camera.project(pose, direction, u[0], u[1])) return false;
+  if (straight && full_.parallel) {
+    u[0] = full_.filmX;
+    u[1] = full_.filmY;
+  } else if (!scene_.camera.project(pose, direction, u[0], u[1])) {
+    return false;
+  }
   path_.filmX = u[0];
   path_.filmY = u[1];
   path_.lastRay =
@@ -202,12 +207,16 @@ bool edgeVisible(const Scene& scene, const FullPath& full, int i) {
     float filmX, filmY;
     if (!escapes)
       return cameraVisible(scene, full.x[at(i) - 1].point, full.time, full.aperture, filmX, filmY);
-    if (!scene.camera.project(scene.camera.poseOf(full.time, full.aperture), full.escape, filmX,
-                              filmY))
-      return false;
     PathRay<float> ray{};
-    ray.origin = from.p;
-    ray.direction = full.escape;
+    if (full.parallel) {
+      ray = startCamera<float>(scene, full.filmX, full.filmY, &full.time);
+    } else {
+      if (!scene.camera.project(scene.camera.poseOf(full.time, full.aperture), full.escape, filmX,
+                                filmY))
+        return false;
+      ray.origin = from.p;
+      ray.direction = full.escape;
+    }
     return !nextPrimitive(scene, ray, true, full.time).valid();
   }
   if (escapes) return pointEscapes(scene, from, full.escape, full.time);

@@ -198,10 +198,11 @@ Link<T> linkToCamera(const Scene& scene, const Arrival<T>& light, PrimitiveId id
                      const std::type_identity_t<T>* aperture = nullptr) {
   return withCameraPose<T>(scene, time, aperture, [&](const auto& pose) {
     Link<T> link = Link<T>::none();
+    const bool parallel = scene.camera.isParallel();
     const Vec3<T> edge = light.point.p - pose.position;
-    const T inverse2 = T(1) / length2(edge);
-    const Vec3<T> fromCamera = edge * sqrt(inverse2);
-    const T cosine = dot(pose.forward, fromCamera);
+    const T inverse2 = parallel ? T(1) : T(1) / length2(edge);
+    const Vec3<T> fromCamera = parallel ? liftFrom<T>(pose.forward) : edge * sqrt(inverse2);
+    const T cosine = parallel ? T(1) : dot(pose.forward, fromCamera);
     if (!(value(cosine) > 0)) return link;
     if (bendBlocks(light, Vec3<T>(-fromCamera), Side::kLight)) return link;
     const Vec3<T> wi = light.point.shading.toLocal(-fromCamera);

@@ -125,6 +125,10 @@ Vec3f directionToLight(const FullPath& path, int i, float& distance) {
     distance = std::numeric_limits<float>::infinity();
     return path.escape;
   }
+  if (i == path.edges && path.parallel) {
+    distance = std::numeric_limits<float>::infinity();
+    return path.view;
+  }
   const Vec3f edge = path.x[at(i) - 1].point.p - path.x[at(i)].point.p;
   distance = sqrt(length2(edge));
   return edge * (1 / distance);
@@ -147,6 +151,8 @@ bool toFull(const Scene& scene, const Path& path, FullPath& full) {
   eye = FullVertex{};
   eye.point.p = scene.camera.poseOf(full.time, full.aperture).position;
   eye.point.ng = Vec3f(0);
+  full.parallel = scene.camera.isParallel();
+  full.view = scene.camera.forwardOf(full.time);
   const int cameraVertices = path.escaped ? t - 2 : t - 1;
   for (int i = 1; i <= cameraVertices; ++i) setVertex(scene, path.camera[at(i)], full.x[at(k - i)]);
   for (int i = 1; i < s; ++i) setVertex(scene, path.light[at(i)], full.x[at(i)]);

@@ -10,8 +10,8 @@
 namespace h2mc {
 
 struct FullVertex {
-  // x_0 of an infinite light is not there; x_0 of a point or spot light and the eye have only `p`, and a
-  // geometric normal of zero.
+  // x_0 of an infinite light is not there, nor is the eye of a parallel camera; x_0 of a point or spot light and the eye
+  // have only `p`, and a geometric normal of zero.
   SurfacePoint<float> point;
   // As a ray finds it, but that it says 0 of spheres, whose two roots depend on where the ray comes from
   // (see primitiveSeen). Invalid where there is no surface.
@@ -32,9 +32,12 @@ struct FullPath {
       lightPrimitive;     // as the light's choosePrimitive() says it; invalid without a surface
   bool infinite = false;  // the light is: the edge from x_1 goes along `escape`
   Vec3f escape{0};        // unit, towards an infinite light
+  bool parallel = false;  // the camera is: the edge to x_(k-1) goes along `view`
+  Vec3f view{0};          // unit, from a parallel camera
   float time = 0;         // this and the next as in PrimarySample
   std::array<float, 2> aperture{0.5f, 0.5f};
-  float filmX = 0, filmY = 0;  // where the eye sees x_(k-1)
+  float filmX = 0,
+        filmY = 0;  // where the eye sees x_(k-1); for mutations, where it has looked last
 
   const FullVertex& eye() const { return x[at(edges)]; }
 };
@@ -53,7 +56,7 @@ void setLightPoint(const Scene& scene, FullPath& full, PrimitiveId primitive, fl
 // The end x_0 that was hit from x_1: at full.x[0] with a valid id, else along full.escape. False where nothing emits.
 bool setLightHit(const Scene& scene, FullPath& full);
 
-// Unit direction from x_i to x_(i-1), 1 <= i <= k; its length, infinity for an infinite light.
+// Unit direction from x_i to x_(i-1), 1 <= i <= k; its length, infinity for an infinite light and a parallel camera.
 Vec3f directionToLight(const FullPath& path, int i, float& distance);
 
 // What a ray along `direction` (any length) that meets vertex `v` finds: `v.id`, for spheres with the root.

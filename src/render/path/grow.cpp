@@ -44,6 +44,8 @@ bool isRough(const Scene& scene, PrimitiveId id, float z, float threshold) {
 }  // namespace
 
 bool Growth::leaveEye(float filmX, float filmY) {
+  path.filmX = filmX;
+  path.filmY = filmY;
   const PathRay<float> ray =
       startCamera<float>(scene, filmX, filmY, &path.time, path.aperture.data());
   return findOrEscape(scene, ray, path, path.edges - 1, true);
@@ -113,12 +115,14 @@ bool joinable(const Scene& scene, const Path& path, int i, float threshold) {
   const bool end = ofCamera ? c == t - 1 : i == s - 1;
   if (!end && isDelta(scene.bsdfs, materialAt(scene, v.id), v.lobe)) return false;
   if (ofCamera) return isRough(scene, v.id, v.vertex.wi.z, threshold);
-  const Vec3f& next = !end ? path.light[at(i) + 1].vertex.point.p
-                      : t > 1
-                          ? path.camera[at(t) - 1].vertex.point.p
-                          : scene.camera.poseOf(path.sample.time, path.sample.aperture).position;
   const SurfacePoint<float>& point = v.vertex.point;
-  return isRough(scene, v.id, dot(point.shading.n, next - point.p), threshold);
+  const auto onwards = [&]() -> Vec3f {
+    if (!end) return path.light[at(i) + 1].vertex.point.p - point.p;
+    if (t > 1) return path.camera[at(t) - 1].vertex.point.p - point.p;
+    const CameraPose<float> pose = scene.camera.poseOf(path.sample.time, path.sample.aperture);
+    return scene.camera.isParallel() ? -pose.forward : pose.position - point.p;
+  };
+  return isRough(scene, v.id, dot(point.shading.n, onwards()), threshold);
 }
 
 double nonDeltaProbability(const Scene& scene, const FullPath& path, int i) {

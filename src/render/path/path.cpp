@@ -33,6 +33,8 @@ bool withinClip(const Camera& camera, float depth) {
 // before it hides nothing.
 Vec3f onNearPlane(const Camera& camera, const CameraPose<float>& pose, const Vec3f& p) {
   const Vec3f fromCamera = p - pose.position;
+  if (camera.isParallel())
+    return p + pose.forward * (camera.nearClip - dot(pose.forward, fromCamera));
   return pose.position + fromCamera * (camera.nearClip / dot(pose.forward, fromCamera));
 }
 

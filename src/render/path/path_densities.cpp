@@ -18,7 +18,7 @@ double logOf(double x) { return x > 0 ? std::log(x) : kNever; }
 struct Edge {
   Vec3f toLight;
   double
-      inverse2;  // 1 / length^2; 1 for an edge to an infinite light, whose distance is no density's business
+      inverse2;  // 1 / length^2; 1 to an infinite light or a parallel camera: no density's business
   double cosCamera,
       cosLight;  // |cos| with the geometric normal at x_i and at x_(i-1); 1 without a surface
 };
@@ -27,7 +27,7 @@ Edge edgeAt(const Scene& scene, const FullPath& path, int i) {
   Edge e;
   float distance;
   e.toLight = directionToLight(path, i, distance);
-  e.inverse2 = i == 1 && path.infinite ? 1 : 1 / squared(double(distance));
+  e.inverse2 = std::isinf(distance) ? 1 : 1 / squared(double(distance));
   const auto cosine = [&](const FullVertex& v) {
     return v.id.valid() ? std::abs(double(v.point.cosine(e.toLight))) : 1.0;
   };

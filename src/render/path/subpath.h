@@ -37,7 +37,8 @@ struct PathRay {
   // The surface that it leaves or has gone straight on through, from where on rays are cast: kept for floats alone.
   // Of no shape: it starts at its origin, in the open.
   RayEnd surface;
-  bool fromInfinity = false;  // left an infinite light: its distance is no density's business
+  bool fromInfinity =
+      false;  // left an infinite light or a parallel camera: its distance is no density's business
 };
 
 // |cos| with the geometric normal of a direction: `local` in the shading frame, `world` in the world.
@@ -135,11 +136,18 @@ PathRay<T> startCamera(const Scene& scene, const T& filmX, const T& filmY,
                        const std::type_identity_t<T>* aperture = nullptr) {
   return withCameraPose<T>(scene, time, aperture, [&](const auto& pose) {
     PathRay<T> ray;
+    ray.throughput = Rgb<T>(T(1));
+    ray.vc = T(0);
+    if (scene.camera.isParallel()) [[unlikely]] {
+      ray.origin = scene.camera.origin(pose, filmX, filmY);
+      ray.direction = liftFrom<T>(pose.forward);
+      ray.vcm = T(Scalar<T>(scene.camera.filmArea()));
+      ray.fromInfinity = true;
+      return ray;
+    }
     ray.origin = liftFrom<T>(pose.position);
     ray.direction = scene.camera.direction(pose, filmX, filmY);
-    ray.throughput = Rgb<T>(T(1));
     ray.vcm = T(1) / scene.camera.pdf(T(dot(pose.forward, ray.direction)));
-    ray.vc = T(0);
     return ray;
   });
 }

@@ -51,7 +51,14 @@ constexpr auto kThinLens = [] {
                       "of the plane in focus along the axis; farClip where it is not given"};
   return all;
 }();
-constexpr Entry kSensors[] = {{"perspective", kPerspective}, {"thinlens", kThinLens}};
+constexpr Parameter kOrthographic[] = {
+    {"toWorld", kTransform, "", "from camera to world space; its scale is half the film's width"},
+    {"nearClip", kNumber, "0.01", "nearest distance, above 0"},
+    {"farClip", kNumber, "10000", "farthest distance, up to 1e30"},
+    {"shutterOpen", kNumber, "0", "time"},
+    {"shutterClose", kNumber, "0", "time"}};
+constexpr Entry kSensors[] = {
+    {"perspective", kPerspective}, {"thinlens", kThinLens}, {"orthographic", kOrthographic}};
 
 constexpr Parameter kFilm[] = {{"width", kInteger, "768", "pixels"},
                                {"height", kInteger, "576", "pixels"},
@@ -245,6 +252,41 @@ float fovOfFocalLength(const ElementProperties& p) {
   return static_cast<float>(fov);
 }
 
+// aspect: of the whole film.
+Camera perspectiveCamera(const ElementProperties& p, const Motion& motion, float aspect) {
+  if (p.given("fov") && p.given("focalLength"))
+    p.fail("focalLength", "the sensor has both fov and focalLength", "expected one of them");
+  float fov = 0;
+  auto axis = Camera::FovAxis::kDiagonal;
+  if (p.given("fov")) {
+    fov = numberIn(p, "fov", kNarrowest, kWidest);
+    const std::string name = p.string("fovAxis");
+    axis = name == "x"          ? Camera::FovAxis::kX
+           : name == "y"        ? Camera::FovAxis::kY
+           : name == "diagonal" ? Camera::FovAxis::kDiagonal
+           : name == "smaller"  ? Camera::FovAxis::kSmaller
+                                : Camera::FovAxis::kLarger;
+  } else {
+    fov = fovOfFocalLength(p);
+  }
+  for (std::string_view name : {"principalPointOffsetX", "principalPointOffsetY"})
+    if (p.number(name) != 0) p.fail(name, "a shifted principal point is not supported");
+  for (int i = 0; i < 3; ++i) {
+    constexpr double kRounding = 1e-3;  // of matrices written with few digits
+    const double scale = glm::length(glm::dvec3(motion.at(0)[i]));
+    if (std::abs(scale - 1) > kRounding)
+      noteChange(p, "toWorld", fmt::format("a scale of {:g}", scale), "none: a camera has no size");
+  }
+  return Camera(Mat4(motion.at(0)), fov, axis, aspect);
+}
+
+// Whose film is [-1, 1] x [-1 / aspect, 1 / aspect] before the transform.
+Camera parallelCamera(const Motion& motion, float aspect) {
+  const glm::dmat4 toWorld = motion.at(0);
+  return Camera::parallel(Mat4(toWorld), static_cast<float>(glm::length(glm::dvec3(toWorld[0]))),
+                          static_cast<float>(glm::length(glm::dvec3(toWorld[1]))) / aspect);
+}
+
 }  // namespace
 
 void readSensor(ReaderContext& context, const XmlElement& element, const ReadOptions& options) {
@@ -275,23 +317,6 @@ void readSensor(ReaderContext& context, const XmlElement& element, const ReadOpt
   }
   if (sampler) scene.samplesPerPixel = readSampler(context, *sampler);
 
-  if (p.given("fov") && p.given("focalLength"))
-    p.fail("focalLength", "the sensor has both fov and focalLength", "expected one of them");
-  float fov = 0;
-  auto axis = Camera::FovAxis::kDiagonal;
-  if (p.given("fov")) {
-    fov = numberIn(p, "fov", kNarrowest, kWidest);
-    const std::string name = p.string("fovAxis");
-    axis = name == "x"          ? Camera::FovAxis::kX
-           : name == "y"        ? Camera::FovAxis::kY
-           : name == "diagonal" ? Camera::FovAxis::kDiagonal
-           : name == "smaller"  ? Camera::FovAxis::kSmaller
-                                : Camera::FovAxis::kLarger;
-  } else {
-    fov = fovOfFocalLength(p);
-  }
-  for (std::string_view name : {"principalPointOffsetX", "principalPointOffsetY"})
-    if (p.number(name) != 0) p.fail(name, "a shifted principal point is not supported");
   // Of the whole film: fov is for that.
   const float part = static_cast<float>(scene.film.width) / static_cast<float>(scene.film.height);
   const double windowX = window.right - window.left, windowY = window.bottom - window.top;
@@ -301,13 +326,8 @@ void readSensor(ReaderContext& context, const XmlElement& element, const ReadOpt
   scene.camera.shutterOpen = shutterOpen;  // what motion() goes by
   scene.camera.shutterClose = shutterClose;
   const Motion motion = p.motion("toWorld");
-  for (int i = 0; i < 3; ++i) {
-    constexpr double kRounding = 1e-3;  // of matrices written with few digits
-    const double scale = glm::length(glm::dvec3(motion.at(0)[i]));
-    if (std::abs(scale - 1) > kRounding)
-      noteChange(p, "toWorld", fmt::format("a scale of {:g}", scale), "none: a camera has no size");
-  }
-  scene.camera = Camera(Mat4(motion.at(0)), fov, axis, aspect);
+  scene.camera = entry.name == "orthographic" ? parallelCamera(motion, aspect)
+                                              : perspectiveCamera(p, motion, aspect);
   if (windowX < 1 || windowY < 1)
     scene.camera.crop(window.left, window.top, window.right, window.bottom);
   scene.camera.follow(motion);
