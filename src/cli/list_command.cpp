@@ -13,6 +13,7 @@
 #include "mcmc/render/integrators.h"
 #include "render/bsdf/bsdf.h"
 #include "render/light/light.h"
+#include "render/scene/sensor_plugins.h"
 #include "render/scene/shape_plugins.h"
 #include "render/scene/suggestion.h"
 #include "render/texture/texture.h"
@@ -42,8 +43,9 @@ std::string optionsOf(const Preset& preset) {
 }
 
 std::vector<Section> sections() {
-  std::vector<Section> all{{"bsdfs", {}},       {"lights", {}},    {"shapes", {}}, {"textures", {}},
-                           {"integrators", {}}, {"mutations", {}}, {"presets", {}}};
+  std::vector<Section> all{
+      {"bsdfs", {}},     {"lights", {}},  {"shapes", {}},  {"textures", {}}, {"integrators", {}},
+      {"mutations", {}}, {"presets", {}}, {"sensors", {}}, {"films", {}},    {"filters", {}}};
   for (const BsdfPlugin& p : bsdfPlugins())
     all[0].entries.push_back({p.name, "", std::string(p.description), p.parameters});
   for (const auto& p : lightPlugins())
@@ -61,6 +63,13 @@ std::vector<Section> sections() {
     all[5].entries.push_back(
         {p.name, "", fmt::format("large step: {}", p.description), p.parameters});
   for (const Preset& p : presets()) all[6].entries.push_back({p.name, "", optionsOf(p), {}});
+  const auto addAll = [](Section& section, std::span<const SensorPlugin> plugins) {
+    for (const SensorPlugin& p : plugins)
+      section.entries.push_back({p.name, "", std::string(p.description), p.parameters});
+  };
+  addAll(all[7], sensorPlugins());
+  addAll(all[8], filmPlugins());
+  addAll(all[9], filterPlugins());
   return all;
 }
 

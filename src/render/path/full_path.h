@@ -10,8 +10,8 @@
 namespace h2mc {
 
 struct FullVertex {
-  // x_0 of an infinite light is not there, nor is the eye of a parallel camera; x_0 of a point or spot light and the eye
-  // have only `p`, and a geometric normal of zero.
+  // x_0 of an infinite light is not there, nor is the eye of a parallel camera; x_0 of a point or spot light and the
+  // eye have only `p`, and a geometric normal of zero.
   SurfacePoint<float> point;
   // As a ray finds it, but that it says 0 of spheres, whose two roots depend on where the ray comes from
   // (see primitiveSeen). Invalid where there is no surface.

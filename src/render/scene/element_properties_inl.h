@@ -14,7 +14,7 @@ const auto& findPlugin(const Plugins& plugins, const XmlElement& element, const 
     names.emplace_back(plugin.name);
   }
   throw sourceError(element.place("type"), "unknown " + kind + " \"" + type + "\"",
-                    "expected a " + kind + " that there is; " + suggestion(type, names));
+                    "expected one that there is; " + suggestion(type, names));
 }
 
 template <class Create>

@@ -2,8 +2,6 @@
 // The camera, its film and its sampler.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,94 +9,20 @@
 #include "render/scene/element_properties.h"
 #include "render/scene/part_readers.h"
 #include "render/scene/ranges.h"
+#include "render/scene/sensor_plugins.h"
 #include "render/scene/value_text.h"
 
 namespace h2mc {
 namespace {
 
-using enum ParameterType;
-
-constexpr Parameter ignoredParameter(std::string_view name, ParameterType type) {
-  return {name, type, "", "accepted and not used", "", "", true};
-}
-
-struct Entry {
-  std::string_view name;
-  std::span<const Parameter> parameters;
-};
-
 constexpr float kNarrowest = 1e-4f, kWidest = 179.9f;  // field of view, degrees
 constexpr float kFarthest = 1e30f;                     // clipping plane
 
-constexpr Parameter kPerspective[] = {
-    {"toWorld", kTransform, "", "from camera to world space"},
-    {"fov", kNumber, "0", "field of view, 1e-4 to 179.9 degrees"},
-    {"fovAxis", kString, "x", "the axis fov is measured along", "x|y|diagonal|smaller|larger"},
-    {"focalLength", kString, "50mm", "instead of fov: focal length for 35 mm film"},
-    {"nearClip", kNumber, "0.01", "nearest distance, above 0"},
-    {"farClip", kNumber, "10000", "farthest distance, up to 1e30"},
-    {"shutterOpen", kNumber, "0", "time"},
-    {"shutterClose", kNumber, "0", "time"},
-    {"principalPointOffsetX", kNumber, "0", "must be 0"},
-    {"principalPointOffsetY", kNumber, "0", "must be 0"},
-    ignoredParameter("focusDistance", kNumber)};
-constexpr auto kThinLens = [] {
-  constexpr std::size_t kOthers = std::size(kPerspective) - 1;
-  std::array<Parameter, kOthers + 2> all{};
-  std::copy_n(kPerspective, kOthers, all.begin());
-  all[kOthers] = {"apertureRadius", kNumber, "", "of the lens, from 0 on; 0 is a pinhole"};
-  all[kOthers + 1] = {"focusDistance", kNumber, "10000",
-                      "of the plane in focus along the axis; farClip where it is not given"};
-  return all;
-}();
-constexpr Parameter kOrthographic[] = {
-    {"toWorld", kTransform, "", "from camera to world space; its scale is half the film's width"},
-    {"nearClip", kNumber, "0.01", "nearest distance, above 0"},
-    {"farClip", kNumber, "10000", "farthest distance, up to 1e30"},
-    {"shutterOpen", kNumber, "0", "time"},
-    {"shutterClose", kNumber, "0", "time"}};
-constexpr Entry kSensors[] = {
-    {"perspective", kPerspective}, {"thinlens", kThinLens}, {"orthographic", kOrthographic}};
-
-constexpr Parameter kFilm[] = {{"width", kInteger, "768", "pixels"},
-                               {"height", kInteger, "576", "pixels"},
-                               {"cropOffsetX", kInteger, "0", "left edge of the part rendered"},
-                               {"cropOffsetY", kInteger, "0", "upper edge of the part rendered"},
-                               {"cropWidth", kInteger, "0", "of the part rendered; the width"},
-                               {"cropHeight", kInteger, "0", "of the part rendered; the height"},
-                               ignoredParameter("banner", kBoolean),
-                               ignoredParameter("fileFormat", kString),
-                               ignoredParameter("pixelFormat", kString),
-                               ignoredParameter("componentFormat", kString),
-                               ignoredParameter("attachLog", kBoolean),
-                               ignoredParameter("highQualityEdges", kBoolean),
-                               ignoredParameter("filename", kString),
-                               ignoredParameter("gamma", kNumber),
-                               ignoredParameter("exposure", kNumber),
-                               ignoredParameter("key", kNumber),
-                               ignoredParameter("burn", kNumber),
-                               ignoredParameter("tonemapMethod", kString),
-                               ignoredParameter("sampleBorder", kBoolean),
-                               ignoredParameter("compensate", kBoolean)};
-constexpr Entry kFilms[] = {
-    {"hdrfilm", kFilm}, {"ldrfilm", kFilm}, {"mfilm", kFilm}, {"tiledhdrfilm", kFilm}};
-
-constexpr Parameter kBox[] = {{"radius", kNumber, "0.5", "pixels, 0.5 to 32"}};
-constexpr Parameter kTent[] = {{"radius", kNumber, "1", "pixels, 0.5 to 32"}};
-constexpr Parameter kGaussian[] = {{"stddev", kNumber, "0.5", "pixels, 0.125 to 8"}};
-constexpr Parameter kMitchell[] = {{"B", kNumber, "0.33333333", "0 to 1"},
-                                   {"C", kNumber, "0.33333333", "0 to 1"}};
-constexpr Entry kFilters[] = {{"box", kBox},
-                              {"tent", kTent},
-                              {"gaussian", kGaussian},
-                              {"mitchell", kMitchell},
-                              {"catmullrom", {}}};
-
-constexpr Parameter kSampler[] = {
-    {"sampleCount", kInteger, "0", "samples a pixel where the command line gives no budget"}};
+constexpr Parameter kSampler[] = {{"sampleCount", ParameterType::kInteger, "0",
+                                   "samples a pixel where the command line gives no budget"}};
 
 Filter readFilter(ReaderContext& context, const XmlElement& element) {
-  const Entry& entry = findPlugin(kFilters, element, "reconstruction filter");
+  const SensorPlugin& entry = findPlugin(filterPlugins(), element, "reconstruction filter");
   const ElementProperties p(context, element, {"rfilter", entry.parameters, 0, {}, false});
   Filter filter;
   if (entry.name == "box") {
@@ -188,7 +112,7 @@ Window readWindow(const ElementProperties& p, FilmSettings& film) {
 
 FilmSettings readFilm(ReaderContext& context, const XmlElement& element, const ReadOptions& options,
                       Window& window) {
-  const Entry& entry = findPlugin(kFilms, element, "film");
+  const SensorPlugin& entry = findPlugin(filmPlugins(), element, "film");
   // Labels and metadata may have any names, "label[10, 10]".
   XmlElement copy = element;
   std::erase_if(copy.children, [&](const XmlElement& child) {
@@ -291,7 +215,7 @@ Camera parallelCamera(const Motion& motion, float aspect) {
 
 void readSensor(ReaderContext& context, const XmlElement& element, const ReadOptions& options) {
   Scene& scene = context.scene;
-  const Entry& entry = findPlugin(kSensors, element, "sensor");
+  const SensorPlugin& entry = findPlugin(sensorPlugins(), element, "sensor");
   const ElementProperties p(context, element,
                             {"sensor", entry.parameters, 0, {"film", "sampler", "medium"}, false});
   const XmlElement* film = nullptr;
