@@ -130,10 +130,11 @@ auto withCameraPose(const Scene& scene, const T* time, const T* aperture, F&& f)
   return f(scene.camera.pose<Scalar<T>>());
 }
 
+// Not inlined: see arriveAt.
 template <class T>
-PathRay<T> startCamera(const Scene& scene, const T& filmX, const T& filmY,
-                       const std::type_identity_t<T>* time = nullptr,
-                       const std::type_identity_t<T>* aperture = nullptr) {
+[[gnu::noinline]] PathRay<T> startCamera(const Scene& scene, const T& filmX, const T& filmY,
+                                         const std::type_identity_t<T>* time = nullptr,
+                                         const std::type_identity_t<T>* aperture = nullptr) {
   return withCameraPose<T>(scene, time, aperture, [&](const auto& pose) {
     PathRay<T> ray;
     ray.throughput = Rgb<T>(T(1));
