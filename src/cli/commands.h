@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "mcmc/render/integrators.h"
 #include "render/core/user_error.h"
 #include "render/scene/option_set.h"
 #include "render/scene/problems.h"
@@ -49,9 +50,6 @@ void addStressCommand(CLI::App& app, Run& run);
 void addCompareCommand(CLI::App& app, Run& run);
 void addDemoCommand(CLI::App& app, Run& run);
 void addInspectCommand(CLI::App& app, Run& run);
-
-// The tables of all integrators, for the scene reader.
-std::vector<IntegratorPlugin> integratorPlugins();
 
 // The option -D of the commands that read a scene.
 void addDefines(CLI::App& command, std::vector<std::string>& definitions);

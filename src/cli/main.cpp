@@ -15,7 +15,6 @@
 #include "compare/comparison.h"
 #include "h2mc_version.h"
 #include "inspect/inspect.h"
-#include "mcmc/render/integrators.h"
 #include "render/image/atomic_file.h"
 #include "render/image/image_io.h"
 #include "render/scene/properties.h"
@@ -23,12 +22,6 @@
 #include "render/scene/suggestion.h"
 
 namespace h2mc {
-
-std::vector<IntegratorPlugin> integratorPlugins() {
-  std::vector<IntegratorPlugin> plugins;
-  for (const IntegratorFactory& factory : allIntegrators()) plugins.push_back(factory.plugin);
-  return plugins;
-}
 
 void printWarnings(const Scene& scene) {
   for (const std::string& warning : scene.warnings) std::fprintf(stderr, "%s\n", warning.c_str());

@@ -136,12 +136,6 @@ const ElementType& anyTypeOf(std::string_view element, Random& random) {
   return *random.pick(all);
 }
 
-std::vector<IntegratorPlugin> integratorPlugins() {
-  std::vector<IntegratorPlugin> all;
-  for (const IntegratorFactory& f : allIntegrators()) all.push_back(f.plugin);
-  return all;
-}
-
 std::span<const std::string_view> sceneFiles() {
   static constexpr std::string_view kFiles[] = {
       "mesh.obj", "mesh.ply",  "mesh.serialized", "picture.png", "sky.hdr",

@@ -28,7 +28,6 @@ std::span<const ElementType> elementTypes();
 const ElementType* typeOf(const XmlElement& element);
 // One of those that an element of this name has. Precondition: there are some.
 const ElementType& anyTypeOf(std::string_view element, Random& random);
-std::vector<IntegratorPlugin> integratorPlugins();
 
 // Files that are there beside each scene.
 std::span<const std::string_view> sceneFiles();

@@ -6,6 +6,7 @@
 
 #include "fuzz_target.h"
 #include "input_folder.h"
+#include "mcmc/render/integrators.h"
 #include "render/scene/scene_reader.h"
 #include "render_check.h"
 #include "scene_mutator.h"

@@ -18,4 +18,10 @@ std::span<const IntegratorFactory> allIntegrators() {
   return list;
 }
 
+std::vector<IntegratorPlugin> integratorPlugins() {
+  std::vector<IntegratorPlugin> plugins;
+  for (const IntegratorFactory& factory : allIntegrators()) plugins.push_back(factory.plugin);
+  return plugins;
+}
+
 }  // namespace h2mc

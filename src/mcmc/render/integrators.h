@@ -8,5 +8,7 @@ namespace h2mc {
 
 // path, bdpt, and the Metropolis methods.
 std::span<const IntegratorFactory> allIntegrators();
+// Their tables, for the scene reader.
+std::vector<IntegratorPlugin> integratorPlugins();
 
 }  // namespace h2mc

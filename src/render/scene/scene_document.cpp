@@ -38,7 +38,9 @@ class Loader {
   Loader(SceneDocument& document, const std::map<std::string, std::string>& defines)
       : document_(document), values_(defines.begin(), defines.end()) {}
 
-  XmlElement load(const std::string& path, const SourcePlace& from) {
+  // text: null, or what is taken for the file's content.
+  XmlElement load(const std::string& path, const SourcePlace& from,
+                  const std::string* text = nullptr) {
     auto file = std::make_shared<SourceFile>();
     file->name = path;
     file->folder = folderOf(path);
@@ -47,12 +49,13 @@ class Loader {
       throw SceneError(path + ": error: cannot read the scene: " + why);
     };
     try {
-      const InputFile input(path, kLargestText);
-      textBytes_ += input.size();
+      std::optional<InputFile> input;
+      if (!text) input.emplace(path, kLargestText);
+      textBytes_ += text ? text->size() : input->size();
       if (textBytes_ > kLargestText)
         fail("with it the scene has " + sizeText(static_cast<double>(textBytes_)) +
              " of text, expected at most " + sizeText(static_cast<double>(kLargestText)));
-      file->text = toUtf8(input.whole());
+      file->text = toUtf8(text ? *text : input->whole());
     } catch (const InputFileError& e) {
       fail(e.why());
     }
@@ -270,7 +273,8 @@ bool isOldVersion(const XmlElement& scene) {
 
 std::unique_ptr<SceneDocument> loadSceneDocument(const std::string& file,
                                                  const std::map<std::string, std::string>& defines,
-                                                 const std::string& confine) {
+                                                 const std::string& confine,
+                                                 const std::string* text) {
   auto document = std::make_unique<SceneDocument>();
   document->folder = folderOf(file);
   if (!confine.empty()) {
@@ -281,13 +285,13 @@ std::unique_ptr<SceneDocument> loadSceneDocument(const std::string& file,
   }
   Loader loader(*document, defines);
   try {
-    document->root = loader.load(file, {});
+    document->root = loader.load(file, {}, text);
   } catch (const TooManyProblems&) {
     std::string all;
     for (const SceneError& problem : document->problems) all += problem.what() + std::string("\n");
     throw SceneError(all + "there is more, which is not looked at");
   }
-  document->files.insert(file);
+  if (!text) document->files.insert(file);
   if (document->root.name != "scene")
     throw sourceError(document->root.place(),
                       "the outermost element is <" + document->root.name + ">",

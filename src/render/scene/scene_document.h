@@ -35,10 +35,12 @@ bool isOldVersion(const XmlElement& scene);
 
 // Reads the file and all it includes. `defines` give $names values that win over <default>. Files that it
 // refers to must lie below the folder `confine` once symbolic links are followed; empty: anywhere.
-// Throws SceneError where there is no document at all; what else is wrong is in its problems.
+// text: the scene, in place of the file's content; the file's name then says what messages call it, and in which folder
+// it looks for others. Throws SceneError where there is no document at all; what else is wrong is in its problems.
 std::unique_ptr<SceneDocument> loadSceneDocument(const std::string& file,
                                                  const std::map<std::string, std::string>& defines,
-                                                 const std::string& confine = "");
+                                                 const std::string& confine = "",
+                                                 const std::string* text = nullptr);
 
 // The path of a file that an element names: relative to the file the element stands in, then to the
 // folders of <path>, then to the scene file. Throws SceneError when there is no such file. Adds it to document.files.

@@ -277,6 +277,10 @@ void checkExtent(const XmlElement& element, const Shape& shape) {
   checkExtent(element, "shape \"" + shape.name + "\"", farthest(bounds.center) + bounds.radius);
 }
 
+Scene readSceneText(const std::string& text, const std::string& name, const ReadOptions& options) {
+  return makeScene(*loadSceneDocument(name, options.defines, options.confine, &text), options);
+}
+
 Scene readScene(const std::string& file, const ReadOptions& options) {
   return makeScene(*loadSceneDocument(file, options.defines, options.confine), options);
 }

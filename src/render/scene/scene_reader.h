@@ -28,6 +28,9 @@ struct ReadOptions {
 // scene: everything that could be found out in one reading; std::runtime_error if Embree fails.
 Scene readScene(const std::string& file, const ReadOptions& options);
 
+// The same of a scene in memory. name: in messages; others that it refers to are looked for in the name's folder.
+Scene readSceneText(const std::string& text, const std::string& name, const ReadOptions& options);
+
 // The same of a document that has been loaded, and perhaps changed since; the defines are the
 // document's and not looked at. The document is normalised.
 Scene makeScene(SceneDocument& document, const ReadOptions& options);
