@@ -11,6 +11,8 @@ __version__: str
 
 class Error(ValueError): ...
 
+Step = Callable[[Technique, NDArray[np.float64]], tuple[ArrayLike, float] | None]
+
 class Scene:
     @property
     def width(self) -> int: ...
@@ -37,6 +39,16 @@ class Scene:
         progress: Callable[[float, float, float], Any] | None = None,
     ) -> tuple[NDArray[np.float32], dict[str, Any]]: ...
     def technique(self, s: int, t: int) -> Technique: ...
+    def chain(
+        self,
+        mutations: Mapping[str | Step, float],
+        *,
+        large_step: float = 0.1,
+        max_edges: int = 8,
+        min_edges: int = 1,
+        seed: int = 0,
+        bootstrap: int = 20000,
+    ) -> Chain: ...
 
 class Technique:
     @property
@@ -58,6 +70,15 @@ class Technique:
         self, x: ArrayLike, to: Technique, seed: int = 0, threads: int = 0
     ) -> NDArray[np.float64]: ...
     def trace(self, row: ArrayLike) -> Path | None: ...
+
+class Chain:
+    @property
+    def path(self) -> Path: ...
+    @property
+    def statistics(self) -> dict[str, dict[str, float]]: ...
+    def step(self, count: int = 1) -> None: ...
+    def image(self) -> NDArray[np.float32]: ...
+    def propose(self, mutation: int, count: int = 1) -> list[tuple[Path | None, float]]: ...
 
 class Path:
     @property

@@ -30,7 +30,9 @@ PYBIND11_MODULE(h2mc, module) {
       "What is wrong with a scene, an option, a file: the message that the program prints.";
   SceneClass scene = addScene(module);
   addRender(scene);
+  addPath(module);
   addTechnique(module, scene);
+  addChain(module, scene);
   addImages(module);
   // Warnings are in Scene.warnings.
   spdlog::set_level(spdlog::level::err);

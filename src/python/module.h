@@ -26,7 +26,9 @@ using Array = py::array_t<T, py::array::c_style | py::array::forcecast>;
 
 SceneClass addScene(py::module_& module);
 void addRender(SceneClass& scene);
+void addPath(py::module_& module);
 void addTechnique(py::module_& module, SceneClass& scene);
+void addChain(py::module_& module, SceneClass& scene);
 void addImages(py::module_& module);
 
 // Of shape (height, width, 3), float32, linear RGB.

@@ -3,113 +3,18 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <optional>
 
-#include "check/gradcheck/path_source.h"
-#include "python/module.h"
-#include "render/core/parallel.h"
-#include "render/core/unit_interval.h"
+#include "python/traced_path.h"
 #include "render/path/assemble.h"
+#include "render/path/bidirectional.h"
 #include "render/path/derivative.h"
 #include "render/path/replay_double.h"
 
 namespace h2mc::python {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint64_t kStream = 0x7079;
-
-using Doubles = Array<double>;
-
-// A technique's primary space as rows of an array: its own continuous coordinates, those that all techniques share,
-// and last its choices.
-class PrimarySpace {
- public:
-  PrimarySpace(ScenePtr scene, int s, int t) : scene_(std::move(scene)), technique_{s, t} {
-    if (s < 0 || t < 1 || technique_.length() < 1 || technique_.length() > kMaxPathLength ||
-        technique_ == Technique{1, 1})
-      throw UserError(
-          fmt::format("there is no technique s={} t={} of 1 to {} edges", s, t, kMaxPathLength));
-  }
-
-  const ScenePtr& scenePtr() const { return scene_; }
-  const Scene& scene() const { return *scene_; }
-  const Technique& technique() const { return technique_; }
-  int dimension() const { return technique_.dimension() + scene_->shared().count(); }
-  int columns() const { return dimension() + technique_.choices(); }
-
-  std::vector<std::string> names() const {
-    std::vector<std::string> names;
-    for (int i = 0; i < technique_.dimension(); ++i) names.push_back(fmt::format("u{}", i));
-    if (scene_->shared().aperture) names.insert(names.end(), {"aperture0", "aperture1"});
-    if (scene_->shared().time) names.emplace_back("time");
-    for (int i = 0; i < technique_.choices(); ++i) names.push_back(fmt::format("choice{}", i));
-    return names;
-  }
-
-  PrimarySample sample(const double* row) const {
-    PrimarySample sample;
-    const int own = technique_.dimension();
-    for (int i = 0; i < own; ++i) sample.u[at(i)] = toUnitInterval(row[i]);
-    float shared[kMostShared];
-    for (int i = 0; i < scene_->shared().count(); ++i) shared[i] = toUnitInterval(row[own + i]);
-    setShared(scene_->shared(), shared, sample);
-    for (int i = 0; i < technique_.choices(); ++i)
-      sample.choice[at(i)] = toUnitInterval(row[dimension() + i]);
-    return sample;
-  }
-  void setRow(const PrimarySample& sample, double* row) const {
-    std::copy_n(sample.u.begin(), technique_.dimension(), row);
-    getShared(scene_->shared(), sample, row + technique_.dimension());
-    std::copy_n(sample.choice.begin(), technique_.choices(), row + dimension());
-  }
-
-  // Throws where the array is not one of rows in [0, 1).
-  void check(const Doubles& x) const {
-    if (x.ndim() != 2 || x.shape(1) != columns())
-      throw UserError(fmt::format("expected an array of shape (n, {}): coordinates of s={} t={}",
-                                  columns(), technique_.s, technique_.t));
-    for (py::ssize_t i = 0; i < x.size(); ++i)
-      if (const double value = x.data()[i]; !(value >= 0 && value < 1))
-        throw UserError(fmt::format("row {}: {} is {:g}, expected a number in [0, 1)",
-                                    i / columns(), names()[at(i % columns())], value));
-  }
-
-  // Traces every row; visit(i, path) of those that carry light, on many threads.
-  template <class Visit>
-  void forPaths(const Doubles& x, int threads, Visit&& visit) const {
-    constexpr int kBlock = 64;
-    const auto rows = static_cast<int>(x.shape(0));
-    const double* const first = x.data();
-    const py::gil_scoped_release released;
-    parallelFor(threads, (rows + kBlock - 1) / kBlock, [&](int block) {
-      Path path(technique_.length());
-      for (int i = block * kBlock; i < std::min(rows, (block + 1) * kBlock); ++i) {
-        path.technique = technique_;
-        path.sample = sample(first + static_cast<py::ssize_t>(i) * columns());
-        if (tracePath(scene(), path)) visit(i, path);
-      }
-    });
-  }
-
-  // Where a path's coordinate i is among the dimension() of all.
-  int column(const Path& path, int i) const {
-    const int skipped = path.moving || i < path.timeCoordinate() ? 0 : 1;
-    return i + skipped;
-  }
-
- private:
-  ScenePtr scene_;
-  Technique technique_;
-};
-
-template <class T>
-py::array_t<T> filled(std::vector<py::ssize_t> shape, T value) {
-  py::array_t<T> array(std::move(shape));
-  std::fill_n(array.mutable_data(), array.size(), value);
-  return array;
-}
 
 py::dict evaluate(const PrimarySpace& space, const Doubles& x, int threads) {
   space.check(x);
@@ -128,23 +33,6 @@ py::dict evaluate(const PrimarySpace& space, const Doubles& x, int threads) {
   result["target"] = target;
   result["film"] = film;
   return result;
-}
-
-// Of gradient and lower triangle by rows into rows of arrays.
-template <class S, class T>
-void spread(const PrimarySpace& space, const Path& path, const S* gradient, const S* hessian,
-            T* toGradient, T* toHessian) {
-  const int d = space.dimension(), n = path.dimension();
-  std::fill_n(toGradient, d, T(0));
-  std::fill_n(toHessian, d * d, T(0));
-  for (int i = 0, k = 0; i < n; ++i) {
-    const int row = space.column(path, i);
-    toGradient[row] = gradient[i];
-    for (int j = 0; j <= i; ++j, ++k) {
-      const int column = space.column(path, j);
-      toHessian[row * d + column] = toHessian[column * d + row] = hessian[k];
-    }
-  }
 }
 
 template <class T>
@@ -222,55 +110,6 @@ Doubles convert(const PrimarySpace& from, const Doubles& x, const PrimarySpace& 
   return result;
 }
 
-// A path that was traced; what is discrete about it is held fixed as its continuous coordinates move.
-class TracedPath {
- public:
-  TracedPath(const PrimarySpace& space, Path path) : space_(space), path_(std::move(path)) {}
-
-  const Path& path() const { return path_; }
-
-  Doubles coordinates() const {
-    std::vector<double> row(at(space_.columns()));
-    space_.setRow(path_.sample, row.data());
-    return Doubles(space_.dimension(), row.data());
-  }
-  double logTarget(const Doubles& x) const {
-    double u[kMaxCoordinates];
-    dependent(x, u);
-    return replayInDouble(space_.scene(), path_, u);
-  }
-  std::pair<Doubles, Doubles> derivatives(const Doubles& x) const {
-    double u[kMaxCoordinates];
-    dependent(x, u);
-    const ad::DerivativeValues r = differentiateInDouble(space_.scene(), path_, u);
-    const py::ssize_t d = space_.dimension();
-    Doubles gradient(d), hessian({d, d});
-    spread(space_, path_, r.gradient.data(), r.hessian.data(), gradient.mutable_data(),
-           hessian.mutable_data());
-    return {std::move(gradient), std::move(hessian)};
-  }
-  Doubles vertices() const {
-    FullPath full;
-    toFull(space_.scene(), path_, full);
-    auto points = filled<double>({full.edges + 1, 3}, kNaN);
-    for (int i = full.infinite ? 1 : 0; i <= full.edges - (full.parallel ? 1 : 0); ++i)
-      for (int k = 0; k < 3; ++k)
-        points.mutable_at(i, k) = full.x[at(i)].point.p[k] + space_.scene().origin[k];
-    return points;
-  }
-
- private:
-  // The coordinates that the path depends on.
-  void dependent(const Doubles& x, double* u) const {
-    if (x.ndim() != 1 || x.shape(0) != space_.dimension())
-      throw UserError(fmt::format("expected an array of {} coordinates", space_.dimension()));
-    for (int i = 0; i < path_.dimension(); ++i) u[i] = x.data()[space_.column(path_, i)];
-  }
-
-  PrimarySpace space_;
-  Path path_;
-};
-
 std::optional<TracedPath> trace(const PrimarySpace& space, Doubles row) {
   if (row.ndim() != 1)
     throw UserError(fmt::format("expected one row of {} coordinates", space.columns()));
@@ -283,52 +122,9 @@ std::optional<TracedPath> trace(const PrimarySpace& space, Doubles row) {
   return TracedPath(space, std::move(path));
 }
 
-void addPath(py::module_& module) {
-  py::class_<TracedPath>(module, "Path",
-                         "A path that carries light. Its derivatives are on its frozen topology: "
-                         "triangles, lobes, light and visibility stay as they were traced.")
-      .def_property_readonly(
-          "s", [](const TracedPath& p) { return p.path().technique.s; }, "vertices from the light")
-      .def_property_readonly(
-          "t", [](const TracedPath& p) { return p.path().technique.t; },
-          "vertices from the camera, the eye among them")
-      .def_property_readonly(
-          "target", [](const TracedPath& p) { return p.path().target; },
-          "luminance of the contribution")
-      .def_property_readonly(
-          "contribution",
-          [](const TracedPath& p) {
-            const Rgbf& c = p.path().contribution;
-            return py::make_tuple(c.x, c.y, c.z);
-          },
-          "RGB, MIS weighted, over the density of the primary sample")
-      .def_property_readonly(
-          "film",
-          [](const TracedPath& p) { return py::make_tuple(p.path().filmX, p.path().filmY); },
-          "(x, y) in [0, 1), from the image's upper left corner")
-      .def_property_readonly(
-          "moving", [](const TracedPath& p) { return p.path().moving; },
-          "whether it depends on time")
-      .def_property_readonly("x", &TracedPath::coordinates,
-                             "the continuous coordinates that it was traced at, float64 (d,)")
-      .def_property_readonly(
-          "vertices", &TracedPath::vertices,
-          "points in the scene's units, float64 (edges + 1, 3), from the light to the eye; NaN for "
-          "an infinite light and the eye of an orthographic camera")
-      .def("log_target", &TracedPath::logTarget, py::arg("x"),
-           "log(target) at continuous coordinates x (d,), in double")
-      .def(
-          "gradient", [](const TracedPath& p, const Doubles& x) { return p.derivatives(x).first; },
-          py::arg("x"), "of log_target, by automatic differentiation in double: (d,)")
-      .def(
-          "hessian", [](const TracedPath& p, const Doubles& x) { return p.derivatives(x).second; },
-          py::arg("x"), "of log_target, by automatic differentiation in double: (d, d)");
-}
-
 }  // namespace
 
 void addTechnique(py::module_& module, SceneClass& scene) {
-  addPath(module);
   const auto threads = py::arg("threads") = 0;
   py::class_<PrimarySpace>(
       module, "Technique",

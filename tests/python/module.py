@@ -252,6 +252,91 @@ class Targets(unittest.TestCase):
                 h2mc.load(scene_file("ring")).technique(s, t)
 
 
+class Chains(unittest.TestCase):
+    def means(self, scene, mutations, seeds=8, steps=20_000, **options):
+        """Mean luminance of the left half of the film over all of it, and its standard error: what a chain decides."""
+        shares = []
+        for seed in range(seeds):
+            chain = scene.chain(mutations, max_edges=3, seed=seed, **options)
+            chain.step(steps)
+            luminance = chain.image() @ np.array([0.212671, 0.715160, 0.072169])
+            shares.append(luminance[:, :scene.width // 2].sum() / luminance.sum())
+        return np.mean(shares), np.std(shares) / (seeds - 1) ** 0.5
+
+    def reference(self, scene):
+        image, _ = scene.render("path:maxDepth=3", samples_per_pixel=4096)
+        luminance = image @ np.array([0.212671, 0.715160, 0.072169])
+        return luminance[:, :scene.width // 2].sum() / luminance.sum()
+
+    def test_own_mutation_keeps_the_target(self):
+        scene = lens_scene()
+        rng = np.random.default_rng(1)
+
+        def narrow(technique, x):
+            """Not symmetric: the step's size grows with the film position."""
+            def deviation(at):
+                return 0.02 + 0.3 * at[0]
+
+            def log_density(a, b):
+                d = technique.dimension
+                return -0.5 * np.sum(((b - a)[:d] / deviation(a)) ** 2) - d * np.log(deviation(a))
+            y = x.copy()
+            y[:technique.dimension] += deviation(x) * rng.normal(size=technique.dimension)
+            if not (0 <= y[0] < 1):
+                return None
+            return y, log_density(y, x) - log_density(x, y)
+        expected = self.reference(scene)
+        share, error = self.means(scene, {narrow: 1}, steps=6000, large_step=0.3)
+        self.assertLess(abs(share - expected), 4 * error + 0.004)
+        self.assertLess(error, 0.02)
+        # A log ratio that is left out is seen.
+        wrong, error = self.means(scene, {lambda technique, x: (lambda p: p and (p[0], 0))(narrow(technique, x)): 1},
+                                  steps=6000, large_step=0.05)
+        self.assertGreater(abs(wrong - expected), 4 * error)
+
+    def test_mutations_of_the_program(self):
+        scene = lens_scene()
+        expected = self.reference(scene)
+        for mutations in {"isotropic:sigma=0.05": 1}, {"hamiltonian": 1, "lens": 1}:
+            share, error = self.means(scene, mutations)
+            self.assertLess(abs(share - expected), 4 * error + 0.004, mutations)
+
+    def test_state_and_statistics(self):
+        scene = lens_scene()
+        chain, again = (scene.chain({"isotropic": 3, "hamiltonian": 1}, seed=4) for _ in range(2))
+        chain.step(3000)
+        again.step(3000)
+        self.assertTrue(np.array_equal(chain.image(), again.image()))
+        statistics = chain.statistics
+        self.assertEqual(list(statistics), ["large", "isotropic", "hamiltonian"])
+        self.assertEqual(sum(of["proposed"] for of in statistics.values()), 3000)
+        self.assertGreater(statistics["isotropic"]["proposed"], statistics["hamiltonian"]["proposed"])
+        self.assertGreater(chain.path.target, 0)
+        proposals = chain.propose(2, 20)
+        self.assertEqual(len(proposals), 20)
+        self.assertTrue(all(path is None or (path.s, path.t) == (chain.path.s, chain.path.t) for path, _ in proposals))
+        self.assertTrue(any(acceptance > 0 for _, acceptance in proposals))
+
+    def test_mistakes(self):
+        scene = lens_scene()
+        for mutations, message in (({"isotropc": 1}, "isotropic"), ({"isotropic:sigma=x": 1}, "sigma"),
+                                   ({"isotropic": 0}, "above 0"), ({3: 1}, "callables")):
+            with self.assertRaisesRegex(h2mc.Error, message):
+                scene.chain(mutations)
+        with self.assertRaisesRegex(h2mc.Error, "min_edges"):
+            scene.chain({"isotropic": 1}, min_edges=5, max_edges=4)
+        for step, error, message in ((lambda t, x: x, h2mc.Error, "log ratio"),
+                                     (lambda t, x: (x[1:], 0), h2mc.Error, "coordinates"),
+                                     (lambda t, x: (x * np.nan, 0), h2mc.Error, "u0"),
+                                     (lambda t, x: (x, np.nan), h2mc.Error, "not a number"),
+                                     (lambda t, x: 1 / 0, ZeroDivisionError, "")):
+            chain = scene.chain({step: 1}, large_step=0)
+            with self.assertRaisesRegex(error, message):
+                chain.step(10)
+        with self.assertRaisesRegex(h2mc.Error, "no steps"):
+            scene.chain({"isotropic": 1}).image()
+
+
 class Docs(unittest.TestCase):
     def test_examples(self):
         """Those of the page run, one after the other."""

@@ -18,28 +18,13 @@ namespace {
 
 constexpr const char* kDefaultIntegrator = "h2mc";
 
-struct Wish {
-  std::string name;  // of an integrator
+struct Wish : NamedOptions {  // the name is an integrator's
   const Preset* preset = nullptr;
-  std::vector<std::pair<std::string, std::string>> options;
 };
 
 Wish parse(const std::string& text) {
-  Wish wish;
-  const std::size_t colon = text.find(':');
-  wish.name = text.substr(0, colon);
+  Wish wish{namedOptions(text)};
   if ((wish.preset = presetNamed(wish.name))) wish.name = wish.preset->method;
-  if (colon == std::string::npos) return wish;
-  for (std::size_t begin = colon + 1; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::string option = text.substr(begin, end - begin);
-    const std::size_t equals = option.find('=');
-    if (equals == 0 || equals == std::string::npos)
-      throw OptionError(
-          fmt::format("--integrator {}: expected option=value, got \"{}\"", text, option));
-    wish.options.emplace_back(option.substr(0, equals), option.substr(equals + 1));
-    begin = end + 1;
-  }
   return wish;
 }
 
@@ -72,6 +57,23 @@ void applyScene(const Scene& scene, OptionSet& options) {
 }
 
 }  // namespace
+
+NamedOptions namedOptions(const std::string& text) {
+  NamedOptions named;
+  const std::size_t colon = text.find(':');
+  named.name = text.substr(0, colon);
+  if (colon == std::string::npos) return named;
+  for (std::size_t begin = colon + 1; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string option = text.substr(begin, end - begin);
+    const std::size_t equals = option.find('=');
+    if (equals == 0 || equals == std::string::npos)
+      throw OptionError(fmt::format("{}: expected option=value, got \"{}\"", text, option));
+    named.options.emplace_back(option.substr(0, equals), option.substr(equals + 1));
+    begin = end + 1;
+  }
+  return named;
+}
 
 IntegratorChoice chooseIntegrator(const std::string& wishText, const Scene& scene) {
   const Wish wish = parse(wishText);

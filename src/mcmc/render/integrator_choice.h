@@ -4,11 +4,21 @@
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "render/integrator/integrator.h"
 #include "render/scene/scene.h"
 
 namespace h2mc {
+
+// "NAME" or "NAME:option=value,..." in parts.
+struct NamedOptions {
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> options;
+};
+// Throws OptionError.
+NamedOptions namedOptions(const std::string& text);
 
 struct IntegratorChoice {
   OptionSet options;

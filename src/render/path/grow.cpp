@@ -116,7 +116,7 @@ bool joinable(const Scene& scene, const Path& path, int i, float threshold) {
   if (!end && isDelta(scene.bsdfs, materialAt(scene, v.id), v.lobe)) return false;
   if (ofCamera) return isRough(scene, v.id, v.vertex.wi.z, threshold);
   const SurfacePoint<float>& point = v.vertex.point;
-  const auto onwards = [&]() -> Vec3f {
+  const auto onwards = [&, t = t]() -> Vec3f {
     if (!end) return path.light[at(i) + 1].vertex.point.p - point.p;
     if (t > 1) return path.camera[at(t) - 1].vertex.point.p - point.p;
     const CameraPose<float> pose = scene.camera.poseOf(path.sample.time, path.sample.aperture);
