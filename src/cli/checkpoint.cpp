@@ -2,18 +2,15 @@
 #include "cli/checkpoint.h"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <filesystem>
 #include <limits>
 #include <vector>
 
 #include "cli/commands.h"
-#include "h2mc_version.h"
-#include "render/core/index.h"
+#include "cli/identity.h"
 #include "render/core/input_file.h"
 #include "render/image/atomic_file.h"
-#include "render/scene/scene.h"
 
 namespace h2mc {
 namespace {
@@ -23,32 +20,6 @@ using nlohmann::json;
 
 // The file: this, the identity as JSON, the render's state, all as Archive writes it, and the CRC-32 of all before.
 constexpr std::string_view kMagic = "h2mc checkpoint 1\n";
-
-// CRC-32 of the first `size` bytes; 0 and a failed stream if there are fewer.
-std::uint32_t checksumOf(std::istream& stream, std::uint64_t size) {
-  std::vector<char> block(1 << 20);
-  uLong sum = 0;
-  while (size > 0) {
-    const auto now = std::min<std::uint64_t>(size, block.size());
-    if (!stream.read(block.data(), static_cast<std::streamsize>(now))) return 0;
-    sum = crc32_z(sum, reinterpret_cast<const unsigned char*>(block.data()), now);
-    size -= now;
-  }
-  return static_cast<std::uint32_t>(sum);
-}
-
-// Each file's name as the scene has it, and the CRC-32 of what is in it.
-json contentsOf(const std::vector<std::string>& files) {
-  json contents = json::object();
-  for (const std::string& file : files) {
-    const std::uint64_t size = InputFile(file, kLargestData).size();
-    std::ifstream stream(file, std::ios::binary);
-    const std::uint32_t sum = checksumOf(stream, size);
-    if (!stream) throw InputError("cannot read \"" + file + "\"");
-    contents[file] = fmt::format("{:08x}", sum);
-  }
-  return contents;
-}
 
 std::string plain(const json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
@@ -72,6 +43,12 @@ std::vector<std::string> differences(const json& there, const json& here) {
   };
   compare(there, here, "");
   compare(part(there, "options"), part(here, "options"), "option ");
+  const json defines = part(here, "defines");
+  compare(part(there, "defines"), defines, "-D ");
+  const json otherDefines = part(there, "defines");
+  for (const auto& [name, value] : otherDefines.items())
+    if (!defines.contains(name))
+      found.push_back(fmt::format("-D {} is {} there and missing here", name, plain(value)));
   const json old = part(there, "files"), now = part(here, "files");
   for (const auto& [file, sum] : now.items())
     if (!old.contains(file))
@@ -84,20 +61,6 @@ std::vector<std::string> differences(const json& there, const json& here) {
 }
 
 }  // namespace
-
-json identityOf(const Scene& scene, const OptionSet& integrator, std::uint64_t seed) {
-  json options = json::object();
-  // The budget, where no other is given.
-  for (const auto& [name, value] : integrator.values())
-    if (name != "mutationsPerPixel" && name != "samplesPerPixel") options[name] = value;
-  return {{"program version", H2MC_VERSION_STRING},
-          {"files", contentsOf(scene.files)},
-          {"width", scene.film.width},
-          {"height", scene.film.height},
-          {"integrator", integrator.integrator()},
-          {"options", options},
-          {"seed", seed}};
-}
 
 bool Checkpoint::exists() const {
   std::error_code error;

@@ -9,16 +9,12 @@
 
 #include "render/core/archive.h"
 #include "render/integrator/integrator.h"
-#include "render/scene/option_set.h"
 
 namespace h2mc {
 
-// What decides on a picture but for the budget and the number of threads: program, scene with the contents of all its
-// files, size, integrator with its options, seed. Throws InputError if a file can't be read.
-nlohmann::json identityOf(const Scene& scene, const OptionSet& integrator, std::uint64_t seed);
-
 class Checkpoint {
  public:
+  // identity: identityOf(...).
   Checkpoint(std::string file, nlohmann::json identity)
       : file_(std::move(file)), identity_(std::move(identity)) {}
 

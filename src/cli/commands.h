@@ -50,6 +50,7 @@ void addStressCommand(CLI::App& app, Run& run);
 void addCompareCommand(CLI::App& app, Run& run);
 void addDemoCommand(CLI::App& app, Run& run);
 void addInspectCommand(CLI::App& app, Run& run);
+void addMergeCommand(CLI::App& app, Run& run);
 
 // The option -D of the commands that read a scene.
 void addDefines(CLI::App& command, std::vector<std::string>& definitions);

@@ -114,9 +114,10 @@ int run(int argc, char** argv) {
   addCompareCommand(app, command);
   addDemoCommand(app, command);
   addInspectCommand(app, command);
+  addMergeCommand(app, command);
 
-  const Names commands{"render", "info",    "list", "diff",   "gradcheck",
-                       "stress", "compare", "demo", "inspect"};
+  Names commands;
+  for (const CLI::App* each : app.get_subcommands({})) commands.push_back(each->get_name());
   const std::string first = argc > 1 ? argv[1] : "";
   const bool known = std::find(commands.begin(), commands.end(), first) != commands.end();
   if (!first.empty() && first[0] != '-' && !known)

@@ -12,6 +12,8 @@
 #include <thread>
 
 #include "cli/commands.h"
+#include "cli/identity.h"
+#include "cli/image_header.h"
 #include "cli/keeper.h"
 #include "cli/progress_display.h"
 #include "cli/statistics_table.h"
@@ -61,6 +63,7 @@ struct Plan {
   OptionSet integrator;
   std::uint64_t seed = 0;
   int threads = 1;
+  std::string sceneDigest{};
 };
 
 Outputs outputsOf(const RenderOptions& options) {
@@ -99,29 +102,25 @@ Scene readSceneFor(const RenderOptions& options) {
   return readScene(options.scene, read);
 }
 
-ImageAttributes attributesOf(const Plan& plan, const RenderResult& result) {
-  ImageAttributes attributes{
-      {"scene", plan.options.scene},
-      {"integrator", plan.integrator.integrator()},
-      {"integratorOptions", optionText(plan.integrator)},
-      {"seed", std::to_string(plan.seed)},  // 64 bits: no number of the format's holds them
-      {"threads", plan.threads},
-      {"wallSeconds", result.wallSeconds},
-      {"cpuSeconds", result.cpuSeconds},
-      {"samples", static_cast<double>(result.samples)},
-      {"sampleUnit", result.sampleUnit},
-      {"meanLuminance", result.meanLuminance},
-      {"meanLuminanceError", result.meanLuminanceError},
-      {"interrupted", result.interrupted ? 1 : 0},
-      {"programVersion", std::string(H2MC_VERSION_STRING)},  // "version" is taken by OpenEXR
-  };
-  if (!plan.options.defines.empty()) {
-    std::string text;
-    for (const std::string& define : plan.options.defines)
-      text += (text.empty() ? "" : " ") + define;
-    attributes["sceneDefines"] = text;
-  }
-  return attributes;
+ImageHeader headerOf(const Plan& plan, const RenderResult& result) {
+  ImageHeader header;
+  header.scene = plan.options.scene;
+  for (const std::string& define : plan.options.defines)
+    header.sceneDefines += (header.sceneDefines.empty() ? "" : " ") + define;
+  header.sceneDigest = plan.sceneDigest;
+  header.integrator = plan.integrator.integrator();
+  header.integratorOptions = optionText(plan.integrator);
+  header.seeds = {plan.seed};
+  header.threads = plan.threads;
+  header.wallSeconds = result.wallSeconds;
+  header.cpuSeconds = result.cpuSeconds;
+  header.samples = static_cast<double>(result.samples);
+  header.sampleUnit = result.sampleUnit;
+  header.meanLuminance = result.meanLuminance;
+  header.meanLuminanceError = result.meanLuminanceError;
+  header.interrupted = result.interrupted;
+  header.programVersion = H2MC_VERSION_STRING;
+  return header;
 }
 
 nlohmann::json statisticsOf(const Plan& plan, const RenderResult& result) {
@@ -164,7 +163,7 @@ void printSummary(const Outputs& outputs, const RenderResult& result) {
 }
 
 void writeImages(const Plan& plan, const RenderResult& result) {
-  writeImage(plan.outputs.image, result.image, attributesOf(plan, result));
+  writeImage(plan.outputs.image, result.image, attributesOf(headerOf(plan, result)));
   if (!plan.outputs.png.empty()) writeImage(plan.outputs.png, result.image);
 }
 
@@ -214,11 +213,13 @@ int render(const RenderOptions& options) {
                scene.film.height, plan.integrator.integrator(), plan.seed, plan.threads,
                plan.threads == 1 ? "" : "s");
 
+  const nlohmann::json identity = identityOf(
+      scene, {parseDefines(options.defines), options.permissive}, plan.integrator, plan.seed);
+  plan.sceneDigest = sceneDigest(identity, options.scene);
+
   // Until the files are written, so that a second signal leaves no half of one.
   const StopSignals signals;
-  Keeper keeper(options.keep,
-                Checkpoint(checkpointFile(options.keep, outputs.image),
-                           identityOf(scene, plan.integrator, plan.seed)),
+  Keeper keeper(options.keep, Checkpoint(checkpointFile(options.keep, outputs.image), identity),
                 [&](const RenderResult& soFar) { tryToWriteImages(plan, soFar); });
   RenderResult result;
   {
@@ -256,15 +257,20 @@ int render(const RenderOptions& options) {
 void addRenderCommand(CLI::App& app, Run& run) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App* command = app.add_subcommand("render", "Render a scene");
-  command->add_option("SCENE", options->scene, "Scene file (Mitsuba XML)")->required();
-  command->add_option(
-      "-o,--output", options->output,
-      "Image to write: .exr (32-bit float), .hdr or .png; default: the scene's name "
-      "with .exr, in the current folder");
+  command->add_option("SCENE", options->scene, "Scene file (Mitsuba XML)")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("-o,--output", options->output,
+                   "Image to write: .exr (32-bit float), .hdr or .png; default: the scene's name "
+                   "with .exr, in the current folder")
+      ->type_name("FILE");
   command->add_flag("--png", options->png, "Write a PNG (sRGB) beside the image as well");
-  command->add_option("-i,--integrator", options->integrator,
-                      "NAME[:option=value,...]; `h2mc list integrators` shows them. Default: what "
-                      "the scene says, else h2mc");
+  command
+      ->add_option("-i,--integrator", options->integrator,
+                   "NAME[:option=value,...]; `h2mc list integrators` shows them. Default: what "
+                   "the scene says, else h2mc")
+      ->type_name("INTEGRATOR");
 
   const CLI::Validator positive(
       [](std::string& text) -> std::string {
@@ -302,7 +308,8 @@ void addRenderCommand(CLI::App& app, Run& run) {
   addPermissive(*command, options->permissive);
   addConfine(*command, options->confine);
   addKeepOptions(*command, options->keep);
-  command->add_option("--stats", options->statistics, "JSON file to write the statistics to");
+  command->add_option("--stats", options->statistics, "JSON file to write the statistics to")
+      ->type_name("FILE");
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command->footer(
       "Ctrl-C ends the render, writes the image of what was done so far and exits with code 130.\n"

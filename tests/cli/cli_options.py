@@ -16,7 +16,7 @@ class General(_h2mc.Test):
 
     def test_help(self):
         text = self.succeeds("--help").stdout
-        for command in ("render", "info", "list", "diff", "gradcheck", "stress", "compare", "demo", "inspect"):
+        for command in ("render", "info", "list", "diff", "gradcheck", "stress", "compare", "demo", "inspect", "merge"):
             self.assertIn(command, text)
             self.assertIn("-h", self.succeeds(command, "--help").stdout)
         for option in ("--output", "--integrator", "--time", "--samples-per-pixel",

@@ -87,6 +87,15 @@ class Resume(_h2mc.Test):
         self.fails(2, "render", "scene.xml", "-i", "path:maxDepth=3", "-s", 4, *again, "--seed", 3,
                    says="option maxDepth is -1 there and 3 here")
         self.fails(2, *self.arguments("path", 4, *again, "--seed", 3, "--width", 30), says="width is 24 there and 30")
+        self.fails(2, *self.arguments("path", 4, *again, "--seed", 3, "-D", "radiance=5"),
+                   says="-D radiance is missing there and 5 here")
+        self.fails(2, *self.arguments("path", 4, *again, "--seed", 3, "--permissive"), says="permissive is false there")
+        defined = ("-o", "b.exr", "--checkpoint", "b.state", "--seed", 3)
+        self.succeeds(*self.arguments("path", 2, *defined, "-D", "radiance=4"))
+        self.fails(2, *self.arguments("path", 4, *defined, "--resume"), says="-D radiance is 4 there and missing here")
+        self.fails(2, *self.arguments("path", 4, *defined, "--resume", "-D", "radiance=5"),
+                   says="-D radiance is 4 there and 5 here")
+        self.succeeds(*self.arguments("path", 4, *defined, "--resume", "-D", "radiance=4"))
         self.write("scene.xml", _h2mc.SCENE.replace("0.5, 0.5, 0.5", "0.6, 0.5, 0.5"))
         self.fails(2, *self.arguments("path", 4, *again, "--seed", 3), says='"scene.xml" has changed')
 

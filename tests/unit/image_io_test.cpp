@@ -70,6 +70,16 @@ TEST_F(ImageIo, ExrKeepsAttributes) {
   EXPECT_EQ(readAttributes(path("a.exr")), attributes);
 }
 
+TEST_F(ImageIo, ExrHeaderAlone) {
+  writeImage(path("a.exr"), gradient(5, 3), {{"threads", 3}});
+  const ExrHeader header = readExrHeader(path("a.exr"));
+  EXPECT_EQ(header.width, 5);
+  EXPECT_EQ(header.height, 3);
+  EXPECT_EQ(header.channels, (std::vector<std::string>{"B", "G", "R"}));
+  EXPECT_EQ(header.attributes, (ImageAttributes{{"threads", 3}}));
+  EXPECT_THROW(readExrHeader(path("missing.exr")), ImageError);
+}
+
 TEST_F(ImageIo, SameImageSameBytes) {
   const auto bytes = [&](const std::string& name) {
     std::ifstream stream(path(name), std::ios::binary);

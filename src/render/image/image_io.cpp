@@ -273,12 +273,19 @@ Image readImage(const std::string& path, float gamma, const std::string& channel
   return image;
 }
 
-ImageAttributes readAttributes(const std::string& path) {
+ExrHeader readExrHeader(const std::string& path) {
   opened(path);
   try {
     const Imf::InputFile file(path.c_str());
-    ImageAttributes attributes;
-    for (auto it = file.header().begin(); it != file.header().end(); ++it) {
+    const Imf::Header& header = file.header();
+    ExrHeader result;
+    const Imath::Box2i& window = header.dataWindow();
+    result.width = window.max.x - window.min.x + 1;
+    result.height = window.max.y - window.min.y + 1;
+    for (auto it = header.channels().begin(); it != header.channels().end(); ++it)
+      result.channels.emplace_back(it.name());
+    ImageAttributes& attributes = result.attributes;
+    for (auto it = header.begin(); it != header.end(); ++it) {
       const std::string name = it.name();
       if (name == "pixelAspectRatio" || name == "screenWindowWidth") continue;  // every file's
       const Imf::Attribute& attribute = it.attribute();
@@ -291,11 +298,13 @@ ImageAttributes readAttributes(const std::string& path) {
       else if (const auto* whole = dynamic_cast<const Imf::IntAttribute*>(&attribute))
         attributes[name] = whole->value();
     }
-    return attributes;
+    return result;
   } catch (const std::exception& e) {
     failReading(path, e.what());
   }
 }
+
+ImageAttributes readAttributes(const std::string& path) { return readExrHeader(path).attributes; }
 
 void writeImage(const std::string& path, const Image& image, const ImageAttributes& attributes) {
   const Format format = formatOf(path);

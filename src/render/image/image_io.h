@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "render/core/user_error.h"
 #include "render/image/image.h"
@@ -26,6 +27,14 @@ Image readImage(const std::string& path, float gamma = 0, const std::string& cha
 // Text, numbers and whole numbers that go into an EXR's header.
 using ImageAttributes = std::map<std::string, std::variant<std::string, double, int>>;
 ImageAttributes readAttributes(const std::string& path);
+
+// What an EXR says before its pixels. Throws ImageError.
+struct ExrHeader {
+  int width = 0, height = 0;
+  std::vector<std::string> channels;
+  ImageAttributes attributes;
+};
+ExrHeader readExrHeader(const std::string& path);
 
 // Writes by the path's ending: .exr (32-bit float, with the attributes), .hdr, .png (sRGB, 8 bit).
 // Written to a temporary name beside it and renamed. Throws ImageError.
