@@ -1,10 +1,19 @@
 # SPDX-License-Identifier: MIT
-# cmake --install: the program, and below share/h2mc what it comes with, laid out as in the repository, so that the
-# pages' links hold.
+# cmake --install: the program, its manual pages and completions, and below share/h2mc what it comes with, laid out as
+# in the repository, so that the pages' links hold.
 
 if(TARGET h2mc)
   install(TARGETS h2mc RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
   install(TARGETS h2mc_oiio LIBRARY DESTINATION "${H2MC_MODULE_INSTALL_DIR}")
+
+  # What the program prints of itself, when it is installed.
+  set(printed "${CMAKE_BINARY_DIR}/printed")
+  install(CODE "set(h2mc_program \"$<TARGET_FILE:h2mc>\")\nset(h2mc_printed \"${printed}\")")
+  install(SCRIPT cmake/H2mcPrinted.cmake)
+  install(FILES "${printed}/h2mc.bash" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" RENAME h2mc)
+  install(FILES "${printed}/h2mc.zsh" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/site-functions" RENAME _h2mc)
+  install(FILES "${printed}/h2mc.fish" DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d")
+  install(DIRECTORY "${printed}/man/" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
 endif()
 
 if(TARGET h2mc_python)

@@ -51,6 +51,12 @@ void addCompareCommand(CLI::App& app, Run& run);
 void addDemoCommand(CLI::App& app, Run& run);
 void addInspectCommand(CLI::App& app, Run& run);
 void addMergeCommand(CLI::App& app, Run& run);
+// These print what the others consist of, when they run: `app` has to live until then.
+void addCompletionCommand(CLI::App& app, Run& run);
+void addManCommand(CLI::App& app, Run& run);
+
+// What `h2mc list` can list.
+std::vector<std::string> listSections();
 
 // The option -D of the commands that read a scene.
 void addDefines(CLI::App& command, std::vector<std::string>& definitions);

@@ -200,11 +200,14 @@ void addCompareCommand(CLI::App& app, Run& run) {
   CLI::App* command =
       app.add_subcommand("compare", "Compare integrators: run time against error, as a page");
   const CLI::Validator positive = CLI::PositiveNumber;
-  command->add_option("SCENE", options->scenes, "Scene files (Mitsuba XML)")->required();
+  command->add_option("SCENE", options->scenes, "Scene files (Mitsuba XML)")
+      ->required()
+      ->type_name("FILE");
   command
       ->add_option(
           "-i,--integrators", options->integrators,
           "NAME[:option=value,...] with commas between; `h2mc list integrators` shows them")
+      ->type_name("INTEGRATOR")
       ->capture_default_str();
   command->add_option("-t,--time", options->time,
                       "Seconds of each run, or those at which its image is kept: 5,10,20,40 "
@@ -218,9 +221,12 @@ void addCompareCommand(CLI::App& app, Run& run) {
       ->add_option("-r,--reference", plan.reference,
                    "Image to compare with ({scene}: the scene's name), or auto: rendered until its "
                    "error is a tenth of the smallest compared")
+      ->type_name("FILE")
       ->capture_default_str();
-  command->add_option("--reference-integrator", plan.referenceIntegrator,
-                      "For auto. Default: what the scene's README says, else bdpt");
+  command
+      ->add_option("--reference-integrator", plan.referenceIntegrator,
+                   "For auto. Default: what the scene's README says, else bdpt")
+      ->type_name("INTEGRATOR");
   command
       ->add_option("--reference-time", plan.referenceSeconds,
                    "For auto: seconds at most for each scene (default: 40 times the last mark)")
@@ -230,7 +236,8 @@ void addCompareCommand(CLI::App& app, Run& run) {
                    "name=FOLDER with another program's EXR images; repeatable")
       ->allow_extra_args(false);
   command->add_option("-o,--output", plan.folder, "Folder for everything; made if need be")
-      ->required();
+      ->required()
+      ->type_name("DIR");
   command
       ->add_option("--embed", options->embed,
                    "Which images of the first repeats the page holds: last marks', all or none")

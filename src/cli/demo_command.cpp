@@ -69,9 +69,11 @@ void addDemoCommand(CLI::App& app, Run& run) {
       "image-copy",
       "Copy a picture by Metropolis sampling of its luminance, with several mutations");
   copy->add_option("PICTURE", options->picture, "Image of any format that OpenImageIO reads")
-      ->required();
+      ->required()
+      ->type_name("FILE");
   copy->add_option("-o,--output", options->output,
-                   "Page to write; default: the picture's name with -copy.html, here");
+                   "Page to write; default: the picture's name with -copy.html, here")
+      ->type_name("FILE");
   copy->add_option("--width", options->width, "The picture is shrunk to this width if it is wider")
       ->check(CLI::Range(8, 1024))
       ->capture_default_str();

@@ -98,13 +98,19 @@ void addDiffCommand(CLI::App& app, Run& run) {
   auto options = std::make_shared<DiffOptions>();
   CLI::App* command = app.add_subcommand("diff", "Error of an image against a reference");
   command->add_option("IMAGE", options->image, "Image of any format that OpenImageIO reads")
-      ->required();
-  command->add_option("REFERENCE", options->reference, "Reference of the same size")->required();
-  command->add_option("--metric", options->metric,
-                      "One of the names below, or all (default: all; with --tolerance: relmse)");
+      ->required()
+      ->type_name("FILE");
+  command->add_option("REFERENCE", options->reference, "Reference of the same size")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("--metric", options->metric,
+                   "One of the names below, or all (default: all; with --tolerance: relmse)")
+      ->type_name("METRIC");
   command->add_option("--tolerance", options->tolerance,
                       "Exit with code 1 if the metric is above (psnr: below) this");
-  command->add_option("-o,--output", options->picture, "Write the difference picture");
+  command->add_option("-o,--output", options->picture, "Write the difference picture")
+      ->type_name("FILE");
   command
       ->add_option("--picture", options->pictureKind,
                    "signed: of luminance, red where IMAGE is brighter, blue where it is darker; "

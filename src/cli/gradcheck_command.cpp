@@ -153,7 +153,9 @@ void addGradcheckCommand(CLI::App& app, Run& run_) {
   CLI::App* command =
       app.add_subcommand("gradcheck", "Check a scene's derivatives against finite differences");
   GradcheckSettings& settings = options->settings;
-  command->add_option("SCENE", options->scene, "Scene file (Mitsuba XML)")->required();
+  command->add_option("SCENE", options->scene, "Scene file (Mitsuba XML)")
+      ->required()
+      ->type_name("FILE");
   const CLI::Validator positive(
       [](std::string& text) -> std::string {
         char* end = nullptr;
@@ -188,8 +190,9 @@ void addGradcheckCommand(CLI::App& app, Run& run_) {
   addLimits(*command);
   addPermissive(*command, options->permissive);
   addConfine(*command, options->confine);
-  command->add_option("--json", options->json, "JSON file for everything that was found");
-  command->add_option("--html", options->html, "Page with tables and plots");
+  command->add_option("--json", options->json, "JSON file for everything that was found")
+      ->type_name("FILE");
+  command->add_option("--html", options->html, "Page with tables and plots")->type_name("FILE");
   command
       ->add_option("--replay", options->replay,
                    "Check one path alone, given as a failure's message or the JSON file has it: "

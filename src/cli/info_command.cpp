@@ -182,7 +182,9 @@ int info(const InfoOptions& options) {
 void addInfoCommand(CLI::App& app, Run& run) {
   auto options = std::make_shared<InfoOptions>();
   CLI::App* command = app.add_subcommand("info", "What a scene file holds, as it was read");
-  command->add_option("SCENE", options->scene, "Scene file (Mitsuba XML)")->required();
+  command->add_option("SCENE", options->scene, "Scene file (Mitsuba XML)")
+      ->required()
+      ->type_name("FILE");
   addDefines(*command, options->defines);
   addLimits(*command);
   addPermissive(*command, options->permissive);

@@ -165,12 +165,16 @@ void addInspectCommand(CLI::App& app, Run& run_) {
   InspectSettings& settings = options->settings;
   CLI::App* command = app.add_subcommand(
       "inspect", "Show one path of a pixel: the target around it, its Hessian, what mutations do");
-  command->add_option("SCENE", options->scene, "Scene file (Mitsuba XML)")->required();
+  command->add_option("SCENE", options->scene, "Scene file (Mitsuba XML)")
+      ->required()
+      ->type_name("FILE");
   auto* pixel = command->add_option("--pixel", options->pixel,
                                     "X,Y from the film's upper left corner, which is 0,0");
-  command->add_option("-o,--output", options->output,
-                      "Folder for index.html, wide.png and close.png; default: the scene's name "
-                      "with -inspect, here");
+  command
+      ->add_option("-o,--output", options->output,
+                   "Folder for index.html, wide.png and close.png; default: the scene's name "
+                   "with -inspect, here")
+      ->type_name("DIR");
   command
       ->add_option("--path", options->path,
                    "Which of the pixel's paths: a state of a chain, or the one with the largest "
@@ -196,17 +200,21 @@ void addInspectCommand(CLI::App& app, Run& run_) {
   command->add_option("--proposals", settings.proposals, "Proposals of each mutation")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  command->add_option("-i,--integrator", options->integrator,
-                      "h2mc or mmlt, with options as in h2mc:sigma=0.02,minDepth=4. Default: h2mc "
-                      "with the scene's options");
+  command
+      ->add_option("-i,--integrator", options->integrator,
+                   "h2mc or mmlt, with options as in h2mc:sigma=0.02,minDepth=4. Default: h2mc "
+                   "with the scene's options")
+      ->type_name("INTEGRATOR");
   addSeed(*command, options->seed, "Same seed: same path. Default: the scene's, or 0");
   addThreads(*command, settings.threads);
   addDefines(*command, options->defines);
   addLimits(*command);
   addPermissive(*command, options->permissive);
   addConfine(*command, options->confine);
-  command->add_option("--json", options->json,
-                      "JSON file: path, eigenvectors, proposals, and the chosen pair's slices");
+  command
+      ->add_option("--json", options->json,
+                   "JSON file: path, eigenvectors, proposals, and the chosen pair's slices")
+      ->type_name("FILE");
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but failures");
   command->footer(
       "Exit code 1 when no light arrives at the pixel.\n"

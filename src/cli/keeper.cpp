@@ -20,10 +20,12 @@ constexpr double kAsked = 60, kUnasked = 300;
 
 void addKeepOptions(CLI::App& command, KeepOptions& options) {
   const auto seconds = CLI::Range(0.0, 1e9);
-  command.add_option("--checkpoint", options.checkpoint,
-                     "File for the render's state, from which --resume goes on. Default: the "
-                     "image's name with .checkpoint, written after five minutes and removed at "
-                     "the end");
+  command
+      .add_option("--checkpoint", options.checkpoint,
+                  "File for the render's state, from which --resume goes on. Default: the "
+                  "image's name with .checkpoint, written after five minutes and removed at "
+                  "the end")
+      ->type_name("FILE");
   command
       .add_option("--every", options.every,
                   "Seconds between two checkpoints; 0: none. Default: 60 with --checkpoint, else "

@@ -221,15 +221,23 @@ int list(const std::string& what, bool markdown) {
 
 }  // namespace
 
+Names listSections() {
+  Names names;
+  for (const Section& section : sections()) names.emplace_back(section.name);
+  return names;
+}
+
 void addListCommand(CLI::App& app, Run& run) {
   auto what = std::make_shared<std::string>();
   auto markdown = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand(
       "list",
       "BSDFs, lights, shapes, textures, integrators, mutations and presets, with their parameters");
-  command->add_option("WHAT", *what,
-                      "bsdfs, lights, shapes, textures, integrators, mutations, presets, or the "
-                      "name of one of their entries; default: everything");
+  command
+      ->add_option("WHAT", *what,
+                   "bsdfs, lights, shapes, textures, integrators, mutations, presets, or the "
+                   "name of one of their entries; default: everything")
+      ->type_name("SECTION");
   command->add_flag("--markdown", *markdown, "as Markdown tables, those of docs/scene-format.md");
   command->footer("Columns: name, type, default (- where there is none), meaning.");
   command->callback(

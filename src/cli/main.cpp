@@ -11,6 +11,7 @@
 #include <iostream>
 #include <new>
 
+#include "cli/command_tree.h"
 #include "cli/commands.h"
 #include "compare/comparison.h"
 #include "h2mc_version.h"
@@ -83,9 +84,7 @@ std::string commandName(const CLI::App& app) {
 std::string messageOf(const CLI::ParseError& error, const CLI::App& app) {
   const auto parsed = app.get_subcommands();
   if (dynamic_cast<const CLI::ExtrasError*>(&error) && !parsed.empty()) {
-    Names known;
-    for (const CLI::Option* option : parsed.front()->get_options())
-      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    const Names known = longOptions(commandTree(*parsed.front()));
     for (const std::string& given : parsed.front()->remaining(true))
       if (given.starts_with("--"))
         return "unknown option \"" + given + "\"; " +
@@ -115,6 +114,8 @@ int run(int argc, char** argv) {
   addDemoCommand(app, command);
   addInspectCommand(app, command);
   addMergeCommand(app, command);
+  addCompletionCommand(app, command);
+  addManCommand(app, command);
 
   Names commands;
   for (const CLI::App* each : app.get_subcommands({})) commands.push_back(each->get_name());

@@ -150,7 +150,9 @@ void addStressCommand(CLI::App& app, Run& run_) {
   CLI::App* command = app.add_subcommand(
       "stress", "Vary a scene to where numbers are hard, and see what becomes of it");
   StressSettings& settings = options->settings;
-  command->add_option("SCENE", options->scene, "Scene file (Mitsuba XML)")->required();
+  command->add_option("SCENE", options->scene, "Scene file (Mitsuba XML)")
+      ->required()
+      ->type_name("FILE");
   const CLI::Validator positive = CLI::Range(1LL, 1000000000000LL);
   auto* paths = command
                     ->add_option("-n,--paths", settings.paths,
@@ -180,7 +182,8 @@ void addStressCommand(CLI::App& app, Run& run_) {
   addLimits(*command);
   addPermissive(*command, options->permissive);
   addConfine(*command, options->confine);
-  command->add_option("--json", options->json, "JSON file for everything that was found");
+  command->add_option("--json", options->json, "JSON file for everything that was found")
+      ->type_name("FILE");
   command
       ->add_option("--replay", options->replay,
                    "Print one path of the variation that --only names, given as a message or the "

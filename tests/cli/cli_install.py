@@ -37,6 +37,14 @@ class Install(_h2mc.Test):
                                 capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 0, result.stderr)
 
+        # What the shells and man look for is what the program prints.
+        for name, command in (("bash-completion/completions/h2mc", ["completion", "bash"]),
+                              ("zsh/site-functions/_h2mc", ["completion", "zsh"]),
+                              ("fish/vendor_completions.d/h2mc.fish", ["completion", "fish"]),
+                              ("man/man1/h2mc.1", ["man"]), ("man/man1/h2mc-render.1", ["man", "render"])):
+            with open(self.path("x/share/" + name), encoding="utf-8") as stream:
+                self.assertEqual(stream.read(), self.succeeds(*command).stdout, name)
+
         # Its module for image files is found beside it, and missed with a message.
         picture = self.path("a.png")
         arguments = [program, "render", os.path.join(share, "scenes/ring/ring.xml"), "-q", "-o", picture, "-m", "1",

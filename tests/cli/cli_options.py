@@ -16,7 +16,8 @@ class General(_h2mc.Test):
 
     def test_help(self):
         text = self.succeeds("--help").stdout
-        for command in ("render", "info", "list", "diff", "gradcheck", "stress", "compare", "demo", "inspect", "merge"):
+        for command in ("render", "info", "list", "diff", "gradcheck", "stress", "compare", "demo", "inspect", "merge",
+                        "completion", "man"):
             self.assertIn(command, text)
             self.assertIn("-h", self.succeeds(command, "--help").stdout)
         for option in ("--output", "--integrator", "--time", "--samples-per-pixel",
@@ -27,6 +28,8 @@ class General(_h2mc.Test):
     def test_misspelt_option(self):
         self.fails(2, "render", "scene.xml", "--thread", 2, says=("--thread", 'did you mean "--threads"'))
         self.fails(2, "compare", "scene.xml", "-o", "x", "--repaets=2", says=("--repaets", 'did you mean "--repeats"'))
+        # One of a group.
+        self.fails(2, "render", "scene.xml", "--tme", 2, says=("--tme", 'did you mean "--time"'))
 
     def test_threads_and_seed(self):
         for command in ("render", "inspect", "gradcheck", "stress"):
@@ -39,6 +42,7 @@ class General(_h2mc.Test):
         self.write("scene.xml", _h2mc.SCENE)
         self.write_png("a.png", 4, 4, lambda x, y: (9, 9, 9))
         for arguments in (["--version"], ["--help"], ["render", "--help"], ["list"], ["info", "scene.xml"],
+                          ["completion", "bash"], ["man", "render"],
                           ["diff", "a.png", "a.png"], ["gradcheck", "scene.xml", "--paths", 50],
                           ["compare", "scene.xml", "-i", "path", "-m", 1, "--repeats", 1, "-o", "out"]):
             with self.subTest(arguments), open("/dev/full", "w", encoding="ascii") as full:
