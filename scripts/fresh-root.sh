@@ -7,51 +7,24 @@
 set -euo pipefail
 root=$(cd -P -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." >/dev/null && pwd)
 source "$root/scripts/lib.sh"
+source "$root/scripts/bare-debian.sh"
 
 who=root
 if [[ ${1-} == --sudo ]]; then who=visitor; shift; fi
 folder=${1:-$root/build/fresh-root}
-((EUID == 0)) || { say "making a root file system needs root"; exit 2; }
-command -v debootstrap >/dev/null || { say "needs debootstrap: apt-get install debootstrap"; exit 2; }
+can_make_bare || exit 2
 mkdir -p "$folder"
 folder=$(cd -P -- "$folder" && pwd)
 
-# "<address> <release>" of each Debian 12 archive that this machine's apt knows.
-archives=$(apt-get indextargets --format '$(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' 2>/dev/null |
-  sed -n 's/^\([^ ]* bookworm[^ ]*\) main$/\1/p' | sort -u)
-mirror=$(sed -n 's/ bookworm$//p' <<<"$archives" | head -n 1)
-: "${mirror:=http://deb.debian.org/debian}"
-[[ -n $archives ]] || archives="$mirror bookworm"
-
-if [[ ! -e $folder/bare.done ]]; then
-  say "making a bare Debian 12"
-  proxy=$(apt-config dump --format '%v' Acquire::http::Proxy || true)
-  rm -rf --one-file-system "$folder/bare"
-  env ${proxy:+http_proxy="$proxy"} debootstrap --variant=minbase bookworm "$folder/bare" "$mirror" \
-    >"$folder/debootstrap.log" 2>&1 ||
-    { cat "$folder/debootstrap.log" >&2; exit 1; }
-  sed 's/^/deb /; s/$/ main/' <<<"$archives" >"$folder/bare/etc/apt/sources.list"
-  apt-config dump | grep -E '^Acquire::(https?::Proxy|Check-)' >"$folder/bare/etc/apt/apt.conf.d/90host" || true
-  cp -L /etc/resolv.conf "$folder/bare/etc/resolv.conf"
-  touch "$folder/bare.done"
-fi
-
+make_bare "$folder"
 new="$folder/root"
 home="/home/visitor/a folder" # with a space, as folders have
-rm -rf --one-file-system "$new"
-cp -a --reflink=auto "$folder/bare" "$new"
-chroot "$new" useradd -m -s /bin/bash visitor
 mkdir -p "$new$home"
 git -c safe.directory='*' clone -q --no-hardlinks "$root" "$new$home/h2mc"
 chroot "$new" chown -R visitor: /home/visitor
 
-# inside USER COMMAND: runs it in the clone, with an environment as bare as the system.
-inside() {
-  unshare --mount --pid --fork -- bash -c '
-    mount -t proc proc "$1/proc" && mount -t devpts -o newinstance,ptmxmode=666 devpts "$1/dev/pts" && shift &&
-    exec env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 HOME=/tmp "$@"' - \
-    "$new" chroot --userspec="$1" "$new" bash -c "cd '$home/h2mc' && $2" </dev/null
-}
+# inside USER COMMAND: runs it in the clone.
+inside() { inside_bare "$folder" "$1" "cd '$home/h2mc' && $2"; }
 
 say "as a user without root and sudo"
 status=0

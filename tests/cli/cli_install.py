@@ -68,6 +68,20 @@ class Install(_h2mc.Test):
         leftovers = [f for f in glob.glob(os.path.join(share, "**", "*"), recursive=True) if "__pycache__" in f]
         self.assertEqual(leftovers, [])
 
+    def test_no_package_for_this_processor_alone(self):
+        """scripts/package.sh --try tries packages as such: they take a build of their own."""
+        if not shutil.which("cpack"):
+            self.skipTest("no cpack")
+        build = os.path.dirname(_h2mc.BINARY)
+        with open(os.path.join(build, "CMakeCache.txt"), encoding="utf-8") as stream:
+            text = stream.read()
+        if "H2MC_NATIVE:BOOL=ON" not in text and "CMAKE_BUILD_TYPE:STRING=Rel" in text:
+            self.skipTest("a build that packages may be made of")
+        result = subprocess.run(["cpack", "-G", "DEB", "--config", os.path.join(build, "CPackConfig.cmake"),
+                                 "-B", self.path("package")], capture_output=True, text=True, check=False)
+        self.assertNotEqual(result.returncode, 0)
+        self.assertRegex(result.stderr, r"(?s)no package of this build.*scripts/package\.sh")
+
 
 if __name__ == "__main__":
     if sys.platform != "linux":
