@@ -14,6 +14,7 @@ beside it, so that methods can be compared on the same scenes.")
 set(CPACK_RESOURCE_FILE_LICENSE "${CMAKE_SOURCE_DIR}/LICENSE")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 
 # As Debian's own tools find out who makes a package.
 set(maintainer "the h2mc authors <h2mc@example.invalid>")

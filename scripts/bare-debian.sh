@@ -11,6 +11,7 @@ can_make_bare() {
 # make_bare FOLDER: a fresh FOLDER/root, copied from FOLDER/bare, which is made first where it is not there.
 make_bare() {
   local folder=$1 archives mirror proxy
+  mkdir -p "$folder"
   # "<address> <release>" of each Debian 12 archive that this machine's apt knows.
   archives=$(apt-get indextargets --format '$(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' 2>/dev/null |
     sed -n 's/^\([^ ]* bookworm[^ ]*\) main$/\1/p' | sort -u)

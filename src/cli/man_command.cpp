@@ -133,6 +133,7 @@ std::string pageOf(const CommandEntry& command, const CommandEntry& tree) {
   for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   std::string text =
       fmt::format(".TH {} 1 \"\" \"h2mc {}\" \"User Commands\"\n", roff(upper), H2MC_VERSION);
+  text += ".nh\n.ad l\n";  // names of options stay whole, for who looks for them
   std::string line = sentence(command.description);
   line.pop_back();
   text += fmt::format(".SH NAME\n{} \\- {}\n", roff(pageName(command)), roff(line));

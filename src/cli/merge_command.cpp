@@ -225,8 +225,9 @@ void addMergeCommand(CLI::App& app, Run& run) {
       "integrator or options (budgets may differ), and those that share a seed. One image alone "
       "is taken too.\n"
       "\n"
-      "Example, four renders at once:\n"
-      "  for seed in 1 2 3 4; do h2mc render ring.xml --seed $seed -o ring-$seed.exr & done; wait\n"
+      "Example, each render on a machine of its own:\n"
+      "  h2mc render ring.xml --seed 1 -o ring-1.exr\n"
+      "  h2mc render ring.xml --seed 2 -o ring-2.exr\n"
       "  h2mc merge ring-?.exr -o ring.exr");
   command->callback([options, &run] { run = [options] { return merge(*options); }; });
 }
