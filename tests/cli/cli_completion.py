@@ -10,8 +10,8 @@ import unittest
 
 import _h2mc
 
-COMMANDS = ["render", "info", "list", "diff", "gradcheck", "stress", "compare", "demo", "inspect", "merge", "completion",
-            "man"]
+COMMANDS = ["render", "info", "list", "diff", "gradcheck", "stress", "compare", "demo", "inspect", "merge",
+            "completion", "man"]
 
 
 def needs(*programs):
@@ -61,8 +61,10 @@ zmodload zsh/zpty
 zpty it 'zsh -f -i'
 talk() { zpty -w it "$1"; zpty -r -m it answer "*$2*" >/dev/null }
 talk 'PS1=; unsetopt zle_bracketed_paste; autoload -Uz compinit; compinit -u -D; source ./zsh; echo rea""dy' 'ready'
-talk 'compadd() { if [[ ${@[1,(i)(-|--)]} == *-(O|A|D)\ * ]]; then builtin compadd "$@"; return; fi
-local -a hits; local -A o; builtin compadd -A hits "$@"; print -rl -- ${hits/#/hit:} >>hits; builtin compadd "$@" }; echo de""fined' 'defined'
+talk 'compadd() {
+if [[ ${@[1,(i)(-|--)]} == *-(O|A|D)\ * ]]; then builtin compadd "$@"; return; fi
+local -a hits; builtin compadd -A hits "$@"; print -rl -- ${hits/#/hit:} >>hits
+builtin compadd "$@" }; echo de""fined' 'defined'
 talk 'bindkey "^X" complete-word; zle -C complete-word complete-word _main_complete; echo bo""und' 'bound'
 zpty -w -n it "$1"$'\x18'
 sleep 1
