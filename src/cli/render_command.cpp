@@ -20,6 +20,7 @@
 #include "cli/stop_signals.h"
 #include "h2mc_version.h"
 #include "mcmc/render/integrator_choice.h"
+#include "mcmc/render/render_report.h"
 #include "render/image/atomic_file.h"
 #include "render/image/image_io.h"
 #include "render/scene/scene.h"
@@ -124,27 +125,11 @@ ImageHeader headerOf(const Plan& plan, const RenderResult& result) {
 }
 
 nlohmann::json statisticsOf(const Plan& plan, const RenderResult& result) {
-  nlohmann::json parameters = nlohmann::json::object();
-  for (const auto& [name, value] : plan.integrator.values()) parameters[name] = value;
-  return {
-      {"programVersion", H2MC_VERSION_STRING},
-      {"scene", plan.options.scene},
-      {"image", plan.outputs.image},
-      {"width", result.image.width},
-      {"height", result.image.height},
-      {"integrator", plan.integrator.integrator()},
-      {"integratorOptions", parameters},
-      {"seed", plan.seed},
-      {"threads", plan.threads},
-      {"wallSeconds", result.wallSeconds},
-      {"cpuSeconds", result.cpuSeconds},
-      {"samples", result.samples},
-      {"sampleUnit", result.sampleUnit},
-      {"meanLuminance", result.meanLuminance},
-      {"meanLuminanceError", result.meanLuminanceError},
-      {"interrupted", result.interrupted},
-      {"statistics", result.statistics},
-  };
+  nlohmann::json all = renderReport(plan.integrator, plan.seed, plan.threads, result);
+  all["programVersion"] = H2MC_VERSION_STRING;
+  all["scene"] = plan.options.scene;
+  all["image"] = plan.outputs.image;
+  return all;
 }
 
 void printSummary(const Outputs& outputs, const RenderResult& result) {
