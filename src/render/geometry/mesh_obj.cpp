@@ -8,6 +8,7 @@
 #include "render/core/input_file.h"
 #include "render/core/memory.h"
 #include "render/geometry/mesh_data.h"
+#include "render/geometry/mesh_polygon.h"
 #include "render/geometry/mesh_text.h"
 
 namespace h2mc {
@@ -41,9 +42,21 @@ struct KeyHash {
 class ObjReader {
  public:
   ObjReader(const std::string& path, std::string_view text, bool flip)
-      : text_(path, text), flip_(flip) {}
+      : text_(path, text, true), flip_(flip) {}
 
   MeshData read() {
+    readVertices();
+    readFaces();
+    if (data_.triangles.empty()) text_.fail("the mesh has no faces");
+    if (!anyNormal_) data_.normals.clear();
+    if (!anyUv_) data_.uvs.clear();
+    if (data_.materialNames.size() < 2) data_.materials.clear();
+    return std::move(data_);
+  }
+
+ private:
+  // First, since faces may come before the vertices that they name.
+  void readVertices() {
     while (text_.nextLine()) {
       const std::string_view keyword = text_.word();
       if (keyword == "v") {
@@ -57,6 +70,20 @@ class ObjReader {
       } else if (keyword == "vn") {
         const float x = text_.number(), y = text_.number(), z = text_.number();
         normals_.emplace_back(x, y, z);
+      }
+    }
+    text_.rewind();
+  }
+
+  void readFaces() {
+    while (text_.nextLine()) {
+      const std::string_view keyword = text_.word();
+      if (keyword == "v") {
+        ++before_.positions;
+      } else if (keyword == "vt") {
+        ++before_.uvs;
+      } else if (keyword == "vn") {
+        ++before_.normals;
       } else if (keyword == "f") {
         readFace();
       } else if (keyword == "g" || keyword == "o") {
@@ -66,21 +93,17 @@ class ObjReader {
         useMaterial(std::string(text_.word()));
       }
     }
-    if (data_.triangles.empty()) text_.fail("the mesh has no faces");
-    if (!anyNormal_) data_.normals.clear();
-    if (!anyUv_) data_.uvs.clear();
-    if (data_.materialNames.size() < 2) data_.materials.clear();
-    return std::move(data_);
   }
 
- private:
-  // An index of the file, from 1 or from the end if negative, as one from 0.
-  std::size_t index(std::string_view word, std::size_t count, const char* what) const {
+  // An index of the file, from 1 or from the last of those `before` the face if negative, as one from 0.
+  std::size_t index(std::string_view word, std::size_t count, std::size_t before,
+                    const char* what) const {
     const long long written = text_.toInteger(word);
-    const long long i = written < 0 ? static_cast<long long>(count) + written : written - 1;
+    const long long i = written < 0 ? static_cast<long long>(before) + written : written - 1;
     if (written == 0 || i < 0 || i >= static_cast<long long>(count))
       text_.fail(std::string(what) + " " + std::to_string(written) +
-                 " is out of range: there are " + std::to_string(count) + " so far");
+                 " is out of range: there are " + std::to_string(written < 0 ? before : count) +
+                 (written < 0 ? " so far" : ""));
     return static_cast<std::size_t>(i);
   }
 
@@ -91,17 +114,17 @@ class ObjReader {
       parts[i] = corner.substr(0, slash);
       corner = slash == std::string_view::npos ? "" : corner.substr(slash + 1);
     }
-    const Vec3f p = positions_[index(parts[0], positions_.size(), "vertex")];
+    const Vec3f p = positions_[index(parts[0], positions_.size(), before_.positions, "vertex")];
     Vec2f uv(0);
     Vec3f n(0);
     unsigned given = 0;
     if (!parts[1].empty()) {
-      uv = uvs_[index(parts[1], uvs_.size(), "texture coordinate")];
+      uv = uvs_[index(parts[1], uvs_.size(), before_.uvs, "texture coordinate")];
       given |= 1;
       anyUv_ = true;
     }
     if (!parts[2].empty()) {
-      n = normals_[index(parts[2], normals_.size(), "normal")];
+      n = normals_[index(parts[2], normals_.size(), before_.normals, "normal")];
       given |= 2;
       anyNormal_ = true;
     }
@@ -126,19 +149,14 @@ class ObjReader {
   }
 
   void readFace() {
-    unsigned first = 0, previous = 0;
-    int corners = 0;
-    for (std::string_view word = text_.word(); !word.empty() && word[0] != '#';
-         word = text_.word(), ++corners) {
-      const unsigned v = vertex(word);
-      if (corners == 0) first = v;
-      if (corners >= 2) {
-        data_.triangles.emplace_back(first, previous, v);
-        data_.materials.push_back(material_);
-      }
-      previous = v;
-    }
-    if (corners < 3) text_.fail("a face with " + std::to_string(corners) + " corners");
+    face_.clear();
+    for (std::string_view word = text_.word(); !word.empty() && word[0] != '#'; word = text_.word())
+      face_.push_back(vertex(word));
+    if (face_.size() < 3) text_.fail("a face with " + std::to_string(face_.size()) + " corners");
+    if (!addPolygon(data_, face_))
+      text_.fail("a face that is not convex has " + std::to_string(face_.size()) +
+                 " corners, more than " + std::to_string(kMostConcaveCorners));
+    data_.materials.resize(data_.triangles.size(), material_);
   }
 
   MeshText text_;
@@ -147,6 +165,10 @@ class ObjReader {
   std::vector<Vec2f> uvs_;
   std::unordered_map<Key, unsigned, KeyHash> vertices_;
   MeshData data_;
+  std::vector<unsigned> face_;
+  struct {
+    std::size_t positions = 0, normals = 0, uvs = 0;
+  } before_;  // that the file has before the face
   unsigned group_ = 0;
   std::uint32_t material_ = 0;
   bool anyNormal_ = false, anyUv_ = false;

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "render/geometry/mesh_data.h"
+#include "render/geometry/mesh_polygon.h"
 #include "render/geometry/mesh_text.h"
 
 namespace h2mc {
@@ -51,12 +52,10 @@ class PlyReader {
     checkSize();
     for (const Element& element : elements_) readElement(element);
     if (mesh_.positions.empty()) fail("the mesh has no vertices");
+    for (const std::vector<unsigned>& face : waiting_) addFace(face);
     if (mesh_.triangles.empty()) fail("the mesh has no faces");
     for (const glm::uvec3& t : mesh_.triangles)
-      for (int i = 0; i < 3; ++i)
-        if (t[i] >= mesh_.positions.size())
-          fail("vertex " + std::to_string(t[i]) + " of a face is out of range: there are " +
-               std::to_string(mesh_.positions.size()));
+      for (int i = 0; i < 3; ++i) requireVertex(t[i]);
     return std::move(mesh_);
   }
 
@@ -254,7 +253,27 @@ class PlyReader {
     }
   }
 
+  void requireVertex(unsigned v) const {
+    if (v >= mesh_.positions.size())
+      fail("vertex " + std::to_string(v) + " of a face is out of range: there are " +
+           std::to_string(mesh_.positions.size()));
+  }
+
+  void addFace(const std::vector<unsigned>& face) {
+    if (face.size() == 3) {
+      mesh_.triangles.emplace_back(face[0], face[1], face[2]);
+    } else if (mesh_.positions.empty()) {
+      waiting_.push_back(face);
+    } else {
+      for (const unsigned v : face) requireVertex(v);
+      if (!addPolygon(mesh_, face))
+        fail("a face that is not convex has " + std::to_string(face.size()) +
+             " corners, more than " + std::to_string(kMostConcaveCorners));
+    }
+  }
+
   void readFaces(const Element& element) {
+    std::vector<unsigned> face;
     for (std::size_t i = 0; i < element.count; ++i) {
       for (const Property& p : element.properties) {
         if (!p.list || (p.name != "vertex_indices" && p.name != "vertex_index")) {
@@ -263,13 +282,10 @@ class PlyReader {
         }
         const std::size_t corners = listCount(p);
         if (corners < 3) fail("face " + std::to_string(i) + " has fewer than 3 corners");
-        unsigned first = 0, previous = 0;
-        for (std::size_t c = 0; c < corners; ++c) {
-          const unsigned v = vertexOf(number(p.type), "face", i);
-          if (c == 0) first = v;
-          if (c >= 2) mesh_.triangles.emplace_back(first, previous, v);
-          previous = v;
-        }
+        face.clear();
+        for (std::size_t c = 0; c < corners; ++c)
+          face.push_back(vertexOf(number(p.type), "face", i));
+        addFace(face);
       }
     }
   }
@@ -315,6 +331,7 @@ class PlyReader {
   std::vector<Element> elements_;
   std::size_t at_ = 0;
   MeshData mesh_;
+  std::vector<std::vector<unsigned>> waiting_;  // for the vertices, which the file has later
 };
 
 }  // namespace

@@ -19,29 +19,28 @@ void requireMemoryFor(const std::string& mesh, double bytes);
 
 class MeshText {
  public:
-  MeshText(std::string name, std::string_view text) : name_(std::move(name)), text_(text) {}
+  // `continues`: a backslash at a line's end, but for lines with comments, makes one with the next.
+  MeshText(std::string name, std::string_view text, bool continues = false)
+      : name_(std::move(name)), text_(text), continues_(continues) {}
 
   // Moves on to the next line; false at the end.
   bool nextLine() {
-    if (at_ >= text_.size()) return false;
-    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
-    rest_ = text_.substr(at_, end - at_);
-    at_ = end + 1;
-    ++line_;
-    return true;
+    while (continued_ && takeLine()) {
+    }
+    return takeLine();
+  }
+  // Back to before the first line.
+  void rewind() {
+    at_ = line_ = 0;
+    continued_ = false;
   }
 
   // The next word of the line; empty at its end.
   std::string_view word() {
-    std::size_t i = 0;
-    while (i < rest_.size() && isSpace(rest_[i])) ++i;
-    std::size_t end = i;
-    while (end < rest_.size() && !isSpace(rest_[end])) ++end;
-    const std::string_view result = rest_.substr(i, end - i);
-    rest_.remove_prefix(end);
+    std::string_view result = wordOfLine();
+    while (result.empty() && continued_ && takeLine()) result = wordOfLine();
     return result;
   }
-
   float number() { return toNumber(word()); }
 
   float toNumber(std::string_view word) const {
@@ -74,11 +73,36 @@ class MeshText {
   std::size_t line() const { return line_; }
 
  private:
+  std::string_view wordOfLine() {
+    std::size_t i = 0;
+    while (i < rest_.size() && isSpace(rest_[i])) ++i;
+    std::size_t end = i;
+    while (end < rest_.size() && !isSpace(rest_[end])) ++end;
+    const std::string_view result = rest_.substr(i, end - i);
+    rest_.remove_prefix(end);
+    return result;
+  }
+  bool takeLine() {
+    continued_ = false;
+    if (at_ >= text_.size()) return false;
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    rest_ = text_.substr(at_, end - at_);
+    at_ = end + 1;
+    ++line_;
+    if (continues_) {
+      std::string_view line = rest_;
+      while (!line.empty() && isSpace(line.back())) line.remove_suffix(1);
+      continued_ = line.ends_with('\\') && line.find('#') == std::string_view::npos;
+      if (continued_) rest_ = line.substr(0, line.size() - 1);
+    }
+    return true;
+  }
   static bool isSpace(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v'; }
 
   std::string name_;
   std::string_view text_, rest_;
   std::size_t at_ = 0, line_ = 0;
+  bool continues_, continued_ = false;  // continued_: this line is, by the next
 };
 
 }  // namespace h2mc

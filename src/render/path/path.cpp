@@ -6,6 +6,7 @@
 
 #include "render/core/archive.h"
 #include "render/core/index.h"
+#include "render/geometry/ray_offset.h"
 #include "render/geometry/ray_tracer.h"
 #include "render/path/path_steps.h"
 
@@ -63,6 +64,24 @@ bool cameraSees(const Scene& scene, const CameraPose<float>& pose, const Surface
          scene.camera.project(pose, fromCamera, filmX, filmY);
 }
 
+// The first primitive along a ray that starts at a point light, met by a ray from there: `found`, unless the light lies
+// in its plane as far as rounding can tell. RayTracer::visible() says that it does not light that surface; half of its
+// light would be a spot there that no other technique finds.
+PrimitiveId beyondPlanes(const Scene& scene, const PathRay<float>& ray, float time,
+                         PrimitiveId found) {
+  RayEnd from{ray.origin};
+  constexpr int kMostPlanes = 3;  // of a corner
+  for (int i = 0; found.valid() && i < kMostPlanes; ++i) {
+    const RayEnd met =
+        intersectPrimitive(scene.shapes, found, ray.origin, ray.direction, &time).end();
+    if (!RayOffset::inPlane(met, ray.origin)) break;
+    from.normal += dot(met.normal, ray.direction) < 0 ? -met.normal : met.normal;
+    from.shape = met.shape;
+    found = scene.tracer->intersect(from, ray.direction, 0, RayTracer::kFar, time);
+  }
+  return found;
+}
+
 }  // namespace
 
 void markScatterWraps(const Scene& scene, Path& path, const TracedVertex& vertex, int coordinate) {
@@ -96,9 +115,12 @@ PrimitiveId nextPrimitive(const Scene& scene, const PathRay<float>& ray, bool fr
     farthest = scene.camera.farClip / cosine;
   }
   return timedQuery([&] {
-    const RayEnd open{ray.origin};
-    return scene.tracer->intersect(ray.surface.shape == ~0u ? open : ray.surface, ray.direction,
-                                   nearest, farthest, time);
+    const bool open = ray.surface.shape == ~0u;
+    const PrimitiveId found = scene.tracer->intersect(open ? RayEnd{ray.origin} : ray.surface,
+                                                      ray.direction, nearest, farthest, time);
+    if (!open || fromCamera || ray.fromInfinity) [[likely]]
+      return found;
+    return beyondPlanes(scene, ray, time, found);
   });
 }
 
