@@ -24,6 +24,8 @@ void requireSound(const MeshData& data) {
   require(!data.triangles.empty(), "a mesh without triangles");
   require(data.normals.empty() || data.normals.size() == vertices, "normals: not one a vertex");
   require(data.uvs.empty() || data.uvs.size() == vertices, "uvs: not one a vertex");
+  require(data.colors.empty() || data.colors.size() == vertices, "colors: not one a vertex");
+  requireFinite(data.colors, "colors");
   requireFinite(data.positions, "positions");
   requireFinite(data.normals, "normals");
   requireFinite(data.uvs, "uvs");

@@ -97,7 +97,8 @@ std::vector<Case> cases() {
                             "sunsky",
                             "instance",
                             "thinlens",
-                            "orthographic"}) {
+                            "orthographic",
+                            "vertexcolors"}) {
     const std::string name = scene;
     list.push_back({name,
                     "path",

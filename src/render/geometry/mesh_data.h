@@ -24,6 +24,8 @@ struct MeshData {
   std::vector<Vec3f> positions;
   std::vector<Vec3f> normals;  // empty, or one a vertex; zero where the file has none
   std::vector<Vec2f> uvs;      // empty, or one a vertex
+  std::vector<Rgbf> colors;    // empty, or one a vertex; integers divided by their largest
+  bool integerColors = false;  // the file has them as integers
   std::vector<glm::uvec3> triangles;
   bool faceNormals = false;  // the file asks for flat shading
   // What the file calls its materials ("" where it names none), and for each triangle which of them it has:
@@ -54,7 +56,7 @@ struct MeshOptions {
 TriangleMesh finishMesh(MeshData data, const MeshOptions& options, std::size_t& dropped);
 
 // One mesh of several states of the same triangles at equally spaced moments, at least 2. Topology and
-// texture coordinates are the first's. Precondition: as many vertices and normals in all.
+// what its vertices have besides positions and normals are the first's. Precondition: as many vertices and normals in all.
 MovingMesh joinSteps(std::vector<TriangleMesh> steps);
 
 // As finishMesh, with a transform for each of the equally spaced moments instead of options.toWorld.

@@ -84,6 +84,7 @@ std::size_t compact(Mesh& mesh, std::size_t steps) {
   keep(mesh.positions, steps);
   keep(mesh.normals, steps);
   keep(mesh.uvs, 1);
+  keep(mesh.colors, 1);
   for (glm::uvec3& t : mesh.triangles) t = glm::uvec3(index[t.x], index[t.y], index[t.z]);
   return dropped;
 }
@@ -94,6 +95,7 @@ TriangleMesh placeMesh(MeshData data, const MeshOptions& options) {
   mesh.positions = std::move(data.positions);
   mesh.normals = std::move(data.normals);
   mesh.uvs = std::move(data.uvs);
+  mesh.colors = std::move(data.colors);
   mesh.triangles = std::move(data.triangles);
 
   const bool identity = options.toWorld == Mat4(1);
@@ -152,6 +154,7 @@ MovingMesh joinSteps(std::vector<TriangleMesh> steps) {
   mesh.segments = static_cast<int>(steps.size()) - 1;
   mesh.triangles = std::move(steps[0].triangles);
   mesh.uvs = std::move(steps[0].uvs);
+  mesh.colors = std::move(steps[0].colors);
   mesh.parallelogram = steps[0].parallelogram;
   for (const TriangleMesh& step : steps) {
     mesh.positions.insert(mesh.positions.end(), step.positions.begin(), step.positions.end());

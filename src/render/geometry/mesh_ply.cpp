@@ -29,6 +29,26 @@ std::size_t sizeOf(Type type) {
   }
 }
 
+// The number that stands for 1 where a colour is of this type.
+float largestOf(Type type) {
+  switch (type) {
+    case Type::kInt8:
+      return 127;
+    case Type::kUint8:
+      return 255;
+    case Type::kInt16:
+      return 32767;
+    case Type::kUint16:
+      return 65535;
+    case Type::kInt32:
+      return 2147483647.0f;
+    case Type::kUint32:
+      return 4294967295.0f;
+    default:
+      return 1;
+  }
+}
+
 struct Property {
   std::string name;
   bool list = false;
@@ -220,23 +240,48 @@ class PlyReader {
 
   void readVertices(const Element& element) {
     if (!mesh_.positions.empty()) fail("two lists of vertices");
-    // Where each property goes: 0-2 position, 3-5 normal, 6-7 texture coordinates.
-    static const std::pair<const char*, int> kTargets[] = {
-        {"x", 0}, {"y", 1}, {"z", 2}, {"nx", 3}, {"ny", 4},        {"nz", 5},
-        {"u", 6}, {"v", 7}, {"s", 6}, {"t", 7},  {"texture_u", 6}, {"texture_v", 7}};
+    // Where each property goes: 0-2 position, 3-5 normal, 6-7 texture coordinates, 8-10 colour.
+    static const std::pair<const char*, int> kTargets[] = {{"x", 0},
+                                                           {"y", 1},
+                                                           {"z", 2},
+                                                           {"nx", 3},
+                                                           {"ny", 4},
+                                                           {"nz", 5},
+                                                           {"u", 6},
+                                                           {"v", 7},
+                                                           {"s", 6},
+                                                           {"t", 7},
+                                                           {"texture_u", 6},
+                                                           {"texture_v", 7},
+                                                           {"red", 8},
+                                                           {"green", 9},
+                                                           {"blue", 10},
+                                                           {"diffuse_red", 8},
+                                                           {"diffuse_green", 9},
+                                                           {"diffuse_blue", 10},
+                                                           {"r", 8},
+                                                           {"g", 9},
+                                                           {"b", 10},
+                                                           {"color_r", 8},
+                                                           {"color_g", 9},
+                                                           {"color_b", 10}};
     std::vector<int> targets;
-    bool has[8] = {};
+    bool has[11] = {};
+    float largest = 1;  // of colours
     for (const Property& p : element.properties) {
       int target = -1;
       for (const auto& [name, index] : kTargets)
         if (p.name == name && !p.list) target = index;
       targets.push_back(target);
       if (target >= 0) has[target] = true;
+      if (target == 8) largest = largestOf(p.type);
     }
     if (!has[0] || !has[1] || !has[2]) fail("the vertices have no x, y, z");
     const bool normals = has[3] && has[4] && has[5], uvs = has[6] && has[7];
+    const bool colors = has[8] && has[9] && has[10];
+    mesh_.integerColors = colors && largest > 1;
     for (std::size_t i = 0; i < element.count; ++i) {
-      float values[8] = {};
+      float values[11] = {};
       for (std::size_t j = 0; j < targets.size(); ++j) {
         if (targets[j] < 0) {
           skip(element.properties[j]);
@@ -249,6 +294,8 @@ class PlyReader {
       }
       mesh_.positions.emplace_back(values[0], values[1], values[2]);
       if (normals) mesh_.normals.emplace_back(values[3], values[4], values[5]);
+      if (colors)
+        mesh_.colors.emplace_back(values[8] / largest, values[9] / largest, values[10] / largest);
       if (uvs) mesh_.uvs.emplace_back(values[6], flip_ ? 1 - values[7] : values[7]);
     }
   }

@@ -182,7 +182,7 @@ MeshData loadMesh(const std::string& path, const InputFile& file, int shapeIndex
   if (flags & kNormals) data.normals = in.vectors<Vec3f>(vertexCount, 3, isDouble, "normal");
   if (flags & kTexCoords)
     data.uvs = in.vectors<Vec2f>(vertexCount, 2, isDouble, "texture coordinate");
-  if (flags & kColors) in.vectors<Vec3f>(vertexCount, 3, isDouble, "colour");
+  if (flags & kColors) data.colors = in.vectors<Vec3f>(vertexCount, 3, isDouble, "colour");
   for (std::uint64_t i = 0; i < triangleCount; ++i) {
     glm::uvec3 t;
     for (int j = 0; j < 3; ++j) {

@@ -51,6 +51,8 @@ struct StillMesh {
   }
   bool hasUvs() const { return !mesh.uvs.empty(); }
   const Vec2f& uv(unsigned i) const { return mesh.uvs[i]; }
+  std::uint32_t placeColumns() const { return mesh.placeColumns; }
+  bool mirrored() const { return placement && placement->mirrors(); }
   bool parallelogram() const { return mesh.parallelogram && !placement; }
 };
 
@@ -64,6 +66,7 @@ class MeshAtMoment {
       : moment_(Moment<T>::at(mesh.segments, time)),
         triangles_(mesh.triangles.data()),
         uvs_(mesh.uvs.data()),
+        placeColumns_(mesh.placeColumns),
         parallelogram_(mesh.parallelogram) {
     const std::size_t first = mesh.vertices() * static_cast<std::size_t>(moment_.index);
     setSteps(mesh, first, first + mesh.vertices());
@@ -72,6 +75,7 @@ class MeshAtMoment {
       : moment_(Moment<T>::at(static_cast<int>(instance.steps.size()) - 1, time)),
         triangles_(instance.shared->mesh.triangles.data()),
         uvs_(instance.shared->mesh.uvs.data()),
+        placeColumns_(instance.shared->mesh.placeColumns),
         from_(&instance.steps[static_cast<std::size_t>(moment_.index)]),
         to_(from_ + 1) {
     setSteps(instance.shared->mesh, 0, 0);
@@ -96,6 +100,8 @@ class MeshAtMoment {
   }
   bool hasUvs() const { return uvs_; }
   const Vec2f& uv(unsigned i) const { return uvs_[i]; }
+  std::uint32_t placeColumns() const { return placeColumns_; }
+  bool mirrored() const { return from_ && from_->mirrors(); }
   bool parallelogram() const { return parallelogram_; }
 
  private:
@@ -114,6 +120,7 @@ class MeshAtMoment {
   Moment<T> moment_;
   const glm::uvec3* triangles_;
   const Vec2f* uvs_;  // null where it has none, as the normals
+  std::uint32_t placeColumns_ = 0;
   bool parallelogram_ = false;
   const Vec3f *first_ = nullptr, *second_ = nullptr;  // the two steps' vertices
   const Vec3f *firstNormals_ = nullptr, *secondNormals_ = nullptr;

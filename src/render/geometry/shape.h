@@ -16,7 +16,10 @@ struct TriangleMesh {
   std::vector<Vec3f> positions;
   std::vector<Vec3f> normals;  // empty, or one a vertex, unit length: shading normals
   std::vector<Vec2f> uvs;      // empty, or one a vertex
+  std::vector<Rgbf> colors;    // the same, for the scene reader: textures keep what they need
   std::vector<glm::uvec3> triangles;
+  // Not 0: the texture coordinates of its points are MeshPlaces in so many columns. Its tangents are those of uvs.
+  std::uint32_t placeColumns = 0;
   // Two triangles that make one parallelogram (0,1,2), (2,3,0): sampled as one surface, so that
   // the map from primary coordinates to points has no seam.
   bool parallelogram = false;
@@ -54,7 +57,9 @@ struct MovingMesh {
   std::vector<Vec3f> positions;  // of all vertices at the first step, then at the second, ...
   std::vector<Vec3f> normals;    // empty, or likewise
   std::vector<Vec2f> uvs;        // empty, or one a vertex
+  std::vector<Rgbf> colors;      // these and placeColumns as in TriangleMesh
   std::vector<glm::uvec3> triangles;
+  std::uint32_t placeColumns = 0;
   bool parallelogram = false;  // as in TriangleMesh
   std::size_t vertices() const { return positions.size() / static_cast<std::size_t>(segments + 1); }
 };

@@ -36,8 +36,8 @@ struct SurfacePoint {
   bool constantNormal = false;  // ng has no derivatives
   Bend bend = Bend::kNone;      // of shading; unless it is none:
   Vec3<Scalar<T>> unbent;       // the shading normal before
-  Vec2<T> uv;                   // texture coordinates (barycentric ones where the mesh has none)
-  std::uint32_t shape = ~0u;    // the PrimitiveId's
+  Vec2<T> uv;  // texture coordinates (barycentric ones where the mesh has none); or a MeshPlace
+  std::uint32_t shape = ~0u;  // the PrimitiveId's
 
   // Of ng and w.
   T cosine(const Vec3<T>& w) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/core/safe_math.h"
+#include "render/geometry/mesh_place.h"
 #include "render/geometry/mesh_view.h"
 #include "render/geometry/surface_point.h"
 
@@ -94,7 +95,11 @@ void finishTrianglePoint(const View& mesh, std::uint32_t index, Vec3<typename Vi
   }
   r.ng = liftFrom<T>(normal);
   r.constantNormal = !ad::isDual<P>;
-  if (!mesh.hasUvs()) {
+  if (const std::uint32_t columns = mesh.placeColumns()) [[unlikely]] {
+    // By the corners' own order.
+    r.uv = mesh.mirrored() ? MeshPlace::of(index, columns, b2, b1)
+                           : MeshPlace::of(index, columns, b1, b2);
+  } else if (!mesh.hasUvs()) {
     r.uv = {b1, b2};
   } else {
     const Vec2f &a = mesh.uv(t.x), &b = mesh.uv(t.y), &c = mesh.uv(t.z);

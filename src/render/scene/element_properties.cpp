@@ -191,7 +191,7 @@ std::string ElementProperties::description() const {
 Names ElementProperties::parameterNames() const {
   // In the file's own spelling: snake_case where its version says so.
   const XmlElement& root = context_.document.root;
-  const bool snake = root.find("version") && !isOldVersion(root);
+  const bool snake = root.find("version") && !h2mc::isOldVersion(root);
   Names names;
   for (const Parameter& p : table_.parameters)
     names.push_back(snake ? snakeCase(p.name) : std::string(p.name));
@@ -417,6 +417,8 @@ Motion ElementProperties::motion(std::string_view name) const {
                   std::to_string(open) + " to " + std::to_string(close));
   return seen;
 }
+
+bool ElementProperties::isOldVersion() const { return h2mc::isOldVersion(context_.document.root); }
 
 std::string ElementProperties::file(std::string_view name) const {
   const XmlElement* child = source(name);

@@ -42,6 +42,7 @@ class ElementProperties : public Properties, public ChangeListener {
   Vec3f vector(std::string_view name) const override;
   Mat4 transform(std::string_view name) const override;
   Motion motion(std::string_view name) const override;
+  bool isOldVersion() const override;
   std::string file(std::string_view name) const override;
   int nestedBsdfCount() const override { return static_cast<int>(nested_.size()); }
   int nestedBsdf(int index) const override;

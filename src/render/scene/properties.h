@@ -54,6 +54,8 @@ class Properties {
       std::string_view name) const = 0;  // identity by default; fails if it moves
   // The same for what may move: a <transform>, or what the camera's shutter sees of an <animation>.
   virtual Motion motion(std::string_view name) const { return Motion(glm::dmat4(transform(name))); }
+  // Whether the file is of Mitsuba 0.x: some plugins do not mean the same there as from version 2 on.
+  virtual bool isOldVersion() const { return true; }
   // The path of a file named by a string parameter, found relative to the scene file; fails when
   // it is not there.
   virtual std::string file(std::string_view name) const = 0;

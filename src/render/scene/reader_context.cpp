@@ -47,25 +47,53 @@ const XmlElement& ReaderContext::resolve(const XmlElement& element) {
 
 TexturePtr ReaderContext::texture(const XmlElement& written, bool texelsMayBeNegative) {
   const XmlElement& element = resolve(written);
-  TexturePtr& made = textures_[{&element, texelsMayBeNegative}];
+  TexturePtr& made = textures_[{&element, texelsMayBeNegative, mesh}];
   if (made) return made;
   const Open open(open_, element);
   used_.insert(&element);
   const auto& plugin = findPlugin(texturePlugins(), element, "texture");
   const ElementProperties properties(
       *this, element, {"texture", plugin.parameters, 0, {}, false, texelsMayBeNegative});
-  return made = createLocated(properties, plugin.create);
+  if (!plugin.create) return made = vertexColors(properties, plugin.name);
+  made = createLocated(properties, plugin.create);
+  // Others are the same everywhere, or made of textures that are on the mesh already.
+  if (mesh && (std::holds_alternative<BitmapTexture>(*made) ||
+               std::holds_alternative<CheckerboardTexture>(*made)))
+    made = std::make_shared<const Texture>(MeshTexture{mesh, made});
+  return made;
+}
+
+TexturePtr ReaderContext::vertexColors(const ElementProperties& properties,
+                                       std::string_view plugin) {
+  float scale = 1;
+  if (plugin == "mesh_attribute") {
+    if (const std::string name = properties.string("name"); name != "vertex_color")
+      properties.fail(
+          "name", properties.description() + ": the attribute \"" + name + "\" is not supported",
+          "expected \"vertex_color\"");
+    scale = properties.number("scale");
+  }
+  if (!mesh) {
+    problems.refuse(properties.element().place(),
+                    properties.description() + ": what it is on has no vertex colours",
+                    "it is black there");
+    return constantTexture(Rgbf(0));
+  }
+  auto colors = std::make_shared<const Texture>(MeshTexture{mesh, nullptr});
+  if (scale == 1) return colors;
+  return std::make_shared<const Texture>(ProductTexture{constantTexture(Rgbf(scale)), colors});
 }
 
 int ReaderContext::material(const XmlElement& written) {
   const XmlElement& element = resolve(written);
   if (element.name != "bsdf")
     throw sourceError(written.place("id"), "<" + element.name + "> is not a bsdf");
-  if (const auto found = materials_.find(&element); found != materials_.end()) return found->second;
+  if (const auto found = materials_.find({&element, mesh}); found != materials_.end())
+    return found->second;
   const Open open(open_, element);
   used_.insert(&element);
   const int index = makeMaterial(element);
-  materials_[&element] = index;
+  materials_[{&element, mesh}] = index;
   return index;
 }
 

@@ -5,12 +5,15 @@
 #include <map>
 #include <set>
 #include <string>
+#include <tuple>
 
 #include "render/scene/problems.h"
 #include "render/scene/scene.h"
 #include "render/scene/scene_document.h"
 
 namespace h2mc {
+
+class ElementProperties;
 
 class ReaderContext {
  public:
@@ -25,6 +28,11 @@ class ReaderContext {
   std::map<const XmlElement*, std::vector<Shape>>
       groups;                 // shapes of those that instances refer to
   SourcePlace hidesEmitters;  // where the scene says that the camera does not see lamps
+
+  using MeshPtr = std::shared_ptr<const MeshAttributes>;
+  // The mesh that what is read now is on, if that has MeshPlaces for texture coordinates: textures and materials
+  // are made for it alone.
+  MeshPtr mesh;
 
   // Adds a line to the scene's notes, once.
   void note(const std::string& text);
@@ -42,13 +50,14 @@ class ReaderContext {
   int defaultMaterial(float reflectance);
 
  private:
+  TexturePtr vertexColors(const ElementProperties& properties, std::string_view plugin);
   int makeMaterial(const XmlElement& element);  // material_reader.cpp
 
   std::set<std::string> noted_;
   std::set<const XmlElement*> used_, open_;  // open: being made, to find circles of references
-  std::map<std::pair<const XmlElement*, bool>, TexturePtr>
-      textures_;  // and whether texels may be negative
-  std::map<const XmlElement*, int> materials_;
+  // Of the element, whether texels may be negative, and the mesh.
+  std::map<std::tuple<const XmlElement*, bool, MeshPtr>, TexturePtr> textures_;
+  std::map<std::pair<const XmlElement*, MeshPtr>, int> materials_;
   std::map<float, int> defaults_;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/geometry/mesh_data.h"
+#include "render/image/color_encoding.h"
 
 namespace h2mc {
 namespace {
@@ -34,13 +35,15 @@ constexpr Parameter kObj[] = {kFilename,
                               kMaxSmoothAngle,
                               ignoredParameter("collapse", kBoolean),
                               ignoredParameter("loadMaterials", kBoolean)};
-constexpr Parameter kPly[] = {kFilename,
-                              kToWorld,
-                              kFaceNormals,
-                              kFlipNormals,
-                              {"flipTexCoords", kBoolean, "false", "v grows upwards"},
-                              kMaxSmoothAngle,
-                              ignoredParameter("srgb", kBoolean)};
+constexpr Parameter kPly[] = {
+    kFilename,
+    kToWorld,
+    kFaceNormals,
+    kFlipNormals,
+    {"flipTexCoords", kBoolean, "false", "v grows upwards"},
+    kMaxSmoothAngle,
+    {"srgb", kBoolean, "",
+     "whether vertex colours are sRGB; in files of version 0.x all, else those that are integers"}};
 constexpr Parameter kFlat[] = {kToWorld, kFlipNormals};
 constexpr Parameter kInstance[] = {
     {"toWorld", kTransform, "", "from the group's space to the world; may be an <animation>"}};
@@ -124,8 +127,10 @@ ShapeGeometry createObj(const Properties& p) {
 
 ShapeGeometry createPly(const Properties& p) {
   const bool flip = p.boolean("flipTexCoords");
-  return finished(p, loaded(p, [&](const std::string& path) { return loadPly(path, flip); }),
-                  false);
+  MeshData data = loaded(p, [&](const std::string& path) { return loadPly(path, flip); });
+  if (p.given("srgb") ? p.boolean("srgb") : p.isOldVersion() || data.integerColors)
+    for (Rgbf& c : data.colors) c = {srgbToLinear(c.x), srgbToLinear(c.y), srgbToLinear(c.z)};
+  return finished(p, std::move(data), false);
 }
 
 ShapeGeometry createRectangle(const Properties& p) {

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "render/scene/element_properties.h"
 #include "render/scene/part_readers.h"
 #include "render/scene/shape_plugins.h"
+#include "render/scene/value_text.h"
 
 namespace h2mc {
 namespace {
@@ -79,6 +81,56 @@ void addShape(ReaderContext& context, const Parts& parts, Shape shape, ShapeGeom
     scene.shapes.back().light =
         addLight(context, *parts.emitter, static_cast<int>(scene.shapes.size()) - 1);
 }
+
+// Whether the element, or what it leads to, has a texture of a mesh's vertex colours.
+bool asksForColors(ReaderContext& context, const XmlElement& written,
+                   std::set<const XmlElement*>& seen) {
+  const XmlElement& element = context.resolve(written);
+  if (isTexture(element) &&
+      isOneOf(lowerCase(element.attribute("type")), {"vertexcolors", "mesh_attribute"}))
+    return true;
+  if (!seen.insert(&element).second) return false;
+  return std::any_of(element.children.begin(), element.children.end(),
+                     [&](const XmlElement& child) { return asksForColors(context, child, seen); });
+}
+
+// While it lives, what is read is on the shape's mesh, if that has vertex colours and the shape asks for them: the
+// mesh's points then have MeshPlaces for texture coordinates.
+class OnColoredMesh {
+ public:
+  OnColoredMesh(ReaderContext& context, const XmlElement& element, Geometry& geometry)
+      : context_(context) {
+    if (auto* still = std::get_if<TriangleMesh>(&geometry)) prepare(element, *still);
+    if (auto* moving = std::get_if<MovingMesh>(&geometry)) prepare(element, *moving);
+  }
+  ~OnColoredMesh() { context_.mesh = nullptr; }
+  OnColoredMesh(const OnColoredMesh&) = delete;
+  OnColoredMesh& operator=(const OnColoredMesh&) = delete;
+
+ private:
+  template <class Mesh>
+  void prepare(const XmlElement& element, Mesh& mesh) {
+    std::vector<Rgbf> colors;
+    std::swap(colors, mesh.colors);
+    std::set<const XmlElement*> seen;
+    if (colors.empty() || !asksForColors(context_, element, seen)) return;
+    std::size_t negative = 0;
+    for (Rgbf& c : colors) {
+      if (c.x >= 0 && c.y >= 0 && c.z >= 0) continue;
+      ++negative;
+      c = glm::max(c, Rgbf(0));
+    }
+    if (negative > 0)
+      context_.problems.tolerate(
+          element.place(), fmt::format("{} vertex colours of the mesh are negative", negative),
+          "in files of version 0.x, and with --permissive, they are 0");
+    mesh.placeColumns = MeshPlace::columnsFor(mesh.triangles.size());
+    context_.mesh = std::make_shared<const MeshAttributes>(
+        MeshAttributes{mesh.placeColumns, mesh.triangles, std::move(colors), mesh.uvs});
+  }
+
+  ReaderContext& context_;
+};
 
 constexpr int kMostBsdfs = 1 << 20;  // of one mesh, by names
 
@@ -183,6 +235,7 @@ void readShape(ReaderContext& context, const XmlElement& element) {
       plugin.create ? createLocated(properties, plugin.create) : readDeforming(context, properties);
   if (parts.hasMedium && !emitter && properties.nestedBsdfCount() == 0)
     return;  // a border of nothing
+  const OnColoredMesh onMesh(context, element, made.geometry);
   // As Mitsuba 0.6: a shape that names no BSDF is grey, a light that names none is black.
   shape.material = properties.nestedBsdfCount() > 0 ? properties.nestedBsdf(0)
                                                     : context.defaultMaterial(emitter ? 0.f : 0.5f);

@@ -18,7 +18,8 @@ struct ProductTexture {
   Rgb<T> evaluate(const Vec2<T>& uv) const;
   template <class T>
   TextureSlope<T> slope(const Vec2<T>& uv) const;
-  // Exact where one of the two is of one colour, else of 256 x 256 points of the unit square.
+  // Exact where one of the two is of one colour, else of 256 x 256 points of the unit square; on a mesh's own
+  // coordinates (isOnMesh) an estimate and a bound.
   Rgbf average() const;
   Rgbf maximum() const;
 };

@@ -128,21 +128,32 @@ void overProducts(const ProductTexture& product, F&& f) {
   }
 }
 
-bool isConstant(const ProductTexture& product) {
-  return std::holds_alternative<ConstantTexture>(*product.first) ||
-         std::holds_alternative<ConstantTexture>(*product.second);
+// Whether average and maximum are the products of those of the two textures. On meshes the maximum is a bound, and the
+// average an estimate.
+bool isSeparate(const ProductTexture& product) {
+  const auto simple = [](const Texture& t) {
+    return std::holds_alternative<ConstantTexture>(t) || isOnMesh(t);
+  };
+  return simple(*product.first) || simple(*product.second);
 }
+
+constexpr Parameter kMeshAttributeParameters[] = {
+    {"name", kString, "vertex_color", "the attribute: the colours of the vertices alone"},
+    {"scale", kNumber, "1", "a factor"},
+};
 
 constexpr Plugin<TexturePtr> kPlugins[] = {
     {"bitmap", "A picture from a file", kBitmapParameters, createBitmap},
     {"checkerboard", "Fields of two colours by turns", kCheckerboardParameters, createCheckerboard},
     {"scale", "A texture times a colour or another texture", kScaleParameters, createScale},
+    {"vertexcolors", "The colours of a mesh's vertices", {}, nullptr},
+    {"mesh_attribute", "The same by Mitsuba 3's name", kMeshAttributeParameters, nullptr},
 };
 
 }  // namespace
 
 Rgbf ProductTexture::average() const {
-  if (isConstant(*this)) return h2mc::average(*first) * h2mc::average(*second);
+  if (isSeparate(*this)) return h2mc::average(*first) * h2mc::average(*second);
   Vec3<double> sum(0);
   double count = 0;
   overProducts(*this, [&](const Rgbf& c) {
@@ -153,10 +164,31 @@ Rgbf ProductTexture::average() const {
 }
 
 Rgbf ProductTexture::maximum() const {
-  if (isConstant(*this)) return h2mc::maximum(*first) * h2mc::maximum(*second);
+  if (isSeparate(*this)) return h2mc::maximum(*first) * h2mc::maximum(*second);
   Rgbf largest(0);
   overProducts(*this, [&](const Rgbf& c) { largest = glm::max(largest, c); });
   return largest;
+}
+
+Rgbf MeshTexture::average() const {
+  if (texture) return h2mc::average(*texture);
+  Vec3<double> sum(0);
+  for (const glm::uvec3& t : mesh->triangles)
+    for (int i = 0; i < 3; ++i) sum += Vec3<double>(mesh->colors[t[i]]);
+  return Rgbf(sum / (3.0 * double(mesh->triangles.size())));
+}
+
+Rgbf MeshTexture::maximum() const {
+  if (texture) return h2mc::maximum(*texture);
+  Rgbf largest(0);
+  for (const Rgbf& c : mesh->colors) largest = glm::max(largest, c);
+  return largest;
+}
+
+bool isOnMesh(const Texture& texture) {
+  const auto* product = std::get_if<ProductTexture>(&texture);
+  return std::holds_alternative<MeshTexture>(texture) ||
+         (product && (isOnMesh(*product->first) || isOnMesh(*product->second)));
 }
 
 Rgbf average(const Texture& texture) {

@@ -10,15 +10,16 @@
 #include "render/texture/bitmap.h"
 #include "render/texture/checkerboard.h"
 #include "render/texture/constant.h"
+#include "render/texture/mesh_texture.h"
 #include "render/texture/product.h"
 
 namespace h2mc {
 
 // Each has `template <class T> Rgb<T> evaluate(const Vec2<T>& uv) const`, differentiated with
-// respect to uv within a cell of the texture, and `Rgbf average() const` and `Rgbf maximum() const`
+// respect to uv within a cell of the texture (or a triangle of the mesh), and `Rgbf average() const` and `Rgbf maximum() const`
 // (per channel, over the texture). A class of its own, so that textures can have textures.
 using AnyTexture =
-    std::variant<ConstantTexture, CheckerboardTexture, BitmapTexture, ProductTexture>;
+    std::variant<ConstantTexture, CheckerboardTexture, BitmapTexture, ProductTexture, MeshTexture>;
 struct Texture : AnyTexture {
   using AnyTexture::AnyTexture;
 };
@@ -70,6 +71,43 @@ template <class T>
   return {a.value * b.value, a.du * b.value + a.value * b.du, a.dv * b.value + a.value * b.dv};
 }
 
+template <class T>
+Vec2<T> MeshTexture::uvAt(const Vec2<T>& place) const {
+  using S = Scalar<T>;
+  const MeshPlace at(value2(place), mesh->columns, mesh->triangles.size());
+  const T b1 = at.b1(place), b2 = at.b2(place);
+  if (mesh->uvs.empty()) return {b1, b2};
+  const glm::uvec3& t = mesh->triangles[at.triangle];
+  const Vec2<S> a(mesh->uvs[t.x]), b(mesh->uvs[t.y]), c(mesh->uvs[t.z]);
+  using ad::linear2;
+  return {linear2(b1, b.x - a.x, b2, c.x - a.x) + a.x, linear2(b1, b.y - a.y, b2, c.y - a.y) + a.y};
+}
+
+template <class T>
+[[gnu::noinline]] Rgb<T> MeshTexture::evaluate(const Vec2<T>& place) const {
+  using S = Scalar<T>;
+  if (texture) return h2mc::evaluate<T>(*texture, uvAt(place));
+  const MeshPlace at(value2(place), mesh->columns, mesh->triangles.size());
+  const T b1 = at.b1(place), b2 = at.b2(place);
+  const glm::uvec3& t = mesh->triangles[at.triangle];
+  const Vec3<S> a = plain<T>(mesh->colors[t.x]);
+  const Vec3<S> d1 = plain<T>(mesh->colors[t.y]) - a, d2 = plain<T>(mesh->colors[t.z]) - a;
+  using ad::linear2;
+  Rgb<T> color;
+  for (int i = 0; i < 3; ++i) {
+    color[i] = linear2(b1, d1[i], b2, d2[i]) + a[i];
+    // By rounding, at an edge of a triangle with a black corner.
+    if (value(color[i]) < 0) color[i] = T(S(0));
+  }
+  return color;
+}
+
+template <class T>
+[[gnu::noinline]] TextureSlope<T> MeshTexture::slope(const Vec2<T>& place) const {
+  if (texture) return slopeOf<T>(*texture, uvAt(place));
+  return {evaluate<T>(place), Rgb<T>(T(Scalar<T>(0))), Rgb<T>(T(Scalar<T>(0)))};
+}
+
 // The number that a texture stands for where one number is wanted (a roughness, a weight): the mean of
 // its channels.
 template <class T>
@@ -83,7 +121,11 @@ Rgbf average(const Texture& texture);
 Rgbf maximum(const Texture& texture);
 TexturePtr constantTexture(const Rgbf& color);
 
-// Every texture a scene file can name.
+// Whether it is looked up by MeshPlaces, or one of those that it is made of.
+bool isOnMesh(const Texture& texture);
+
+// Every texture a scene file can name. "vertexcolors" and "mesh_attribute", which ask the scene reader for a mesh, have
+// no `create`.
 std::span<const Plugin<TexturePtr>> texturePlugins();
 
 }  // namespace h2mc
