@@ -72,15 +72,19 @@ inline Plastic plastic(const Rgbf& color, float eta, bool nonlinear) {
   b.base = LayeredDiffuse(constantTexture(color), 1, fresnelDiffuse(1.0 / eta), eta, nonlinear);
   return b;
 }
-inline RoughPlastic roughPlastic(Microfacet f, const Rgbf& color, float eta, bool nonlinear) {
+// `recent`: as in files of version 2 and later.
+inline RoughPlastic roughPlastic(Microfacet f, const Rgbf& color, float eta, bool nonlinear,
+                                 bool recent = false) {
   RoughPlastic b;
   b.facets = f;
   b.eta = eta;
   b.specular = gray(1);
   b.specularWeight = 1 / (1 + luminance(color));
   b.transmittance = RoughTransmittance::shared(f, eta);
-  b.base = LayeredDiffuse(constantTexture(color), 1, b.transmittance->internalReflectance(), eta,
-                          nonlinear);
+  b.base = LayeredDiffuse(constantTexture(color), 1,
+                          recent ? RoughTransmittance::facetsInternalReflectance(f, eta)
+                                 : b.transmittance->internalReflectance(),
+                          eta, nonlinear);
   return b;
 }
 
@@ -181,6 +185,10 @@ inline const std::vector<BsdfCase>& glossyCases() {
       {"roughplastic ggx 0.15", roughPlastic(facets(kGgx, 0.15f), {0.6f, 0.3f, 0.1f}, 1.5f, true)},
       {"roughplastic beckmann 0.3",
        roughPlastic(facets(kBeckmann, 0.3f), {0.6f, 0.3f, 0.1f}, 1.49f, false)},
+      {"roughplastic of version 3 ggx 0.4",
+       roughPlastic(facets(kGgx, 0.4f), {0.9f, 0.3f, 0.1f}, 1.5f, true, true)},
+      {"roughplastic of version 3 beckmann 0.02",
+       roughPlastic(facets(kBeckmann, 0.02f), Rgbf(1), 1.49f, false, true)},
       {"roughconductor phong 0.3", roughConductor(facets(kPhong, 0.3f), gold())},
       {"roughconductor phong 0.05", roughConductor(facets(kPhong, 0.05f), gold())},
       {"roughdielectric phong 0.25", roughDielectric(facets(kPhong, 0.25f), 1.5f), true},

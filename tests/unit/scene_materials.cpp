@@ -44,6 +44,19 @@ TEST_F(SceneMaterials, NullLetsEverythingThrough) {
   }
 }
 
+TEST_F(SceneMaterials, RoughPlasticIsThatOfTheFilesVersion) {
+  const std::string text =
+      R"(<shape type="rectangle"><bsdf type="roughplastic"><float name="alpha" value="0.4"/></bsdf></shape>)";
+  const auto diffuse = [&](const std::string& scene) {
+    const Scene read = folder_.read(scene);
+    const Material& m = read.materials[at(read.shapes[0].material)];
+    return average(*std::get<RoughPlastic>(read.bsdfs[at(m.front)]).base.reflectance).x;
+  };
+  EXPECT_NEAR(
+      diffuse(testing::sceneWith(text)) / diffuse(testing::modern(testing::sceneWith(text))), 1.247,
+      4e-3);
+}
+
 TEST_F(SceneMaterials, BlendsHaveTheirWeight) {
   Scene scene;
   const Material m = material(R"(<bsdf type="blendbsdf"><float name="weight" value="0.25"/>)" +

@@ -323,7 +323,9 @@ Bsdf createRoughPlastic(const Properties& p) {
   b.facets = {readDistribution(p), roughness(p, "alpha")};
   b.eta = relativeIndex(p, true);
   b.transmittance = RoughTransmittance::shared(b.facets, b.eta);
-  readCoat(p, b, b.transmittance->internalReflectance());
+  readCoat(p, b,
+           p.isOldVersion() ? b.transmittance->internalReflectance()
+                            : RoughTransmittance::facetsInternalReflectance(b.facets, b.eta));
   return b;
 }
 

@@ -29,6 +29,14 @@ double throughFacet(const Microfacet& facets, double eta, const Vec& wi, const V
   return transmitDielectric(c, eta) * facets.maskingOverCos(down) * down;
 }
 
+// F times the masking of what is reflected by one facet m (any length).
+double reflectedByFacet(const Microfacet& facets, double eta, const Vec& wi, const Vec& facet) {
+  const Vec m = glm::normalize(facet);
+  const double c = dot(wi, m), up = 2 * c * m.z - wi.z;
+  if (!(c > 0 && up > 0)) return 0;
+  return fresnelDielectric(c, eta) * facets.maskingOverCos(up) * up;
+}
+
 // The density of slopes over that of GGX, where 1 + p^2 + q^2 = 1 / c^2 in units of alpha.
 double overGgx(const Microfacet& facets, double c) {
   if (facets.distribution == FacetDistribution::kGgx) return 1;
@@ -65,11 +73,10 @@ double meanFromInside(const Microfacet& facets, double eta) {
   return through;
 }
 
-}  // namespace
-
-// E over visible facets of (1 - F) G1(wo). With facet slopes (p, q) / alpha = their unit version,
+// E over visible facets of f(m). With facet slopes (p, q) / alpha = their unit version,
 // p along wi, the visible normals have density G1(wi) / cos(wi) P22(p, q) (cos(wi) + alpha p sin(wi)).
-double RoughTransmittance::integrate(const Microfacet& facets, double eta, double cosine) {
+template <class F>
+double overVisibleFacets(const Microfacet& facets, double eta, double cosine, F&& f) {
   // Total reflection cuts the integrand off with a root: more nodes there.
   static const auto few = gaussLegendre(48), half = gaussLegendre(24), many = gaussLegendre(96);
   const auto &nodes = eta < 1 ? many : few, &halfNodes = eta < 1 ? few : half;
@@ -86,8 +93,7 @@ double RoughTransmittance::integrate(const Microfacet& facets, double eta, doubl
       for (const auto& [y, wy] : halfNodes) {
         const double s = quarter * y, cs = std::cos(s);
         inner += wy * cs * cs * overGgx(facets, std::cos(t) * cs) *
-                 throughFacet(facets, eta, wi,
-                              Vec(a * std::sin(t) * cs, a * std::sin(s), std::cos(t) * cs));
+                 f(facets, eta, wi, Vec(a * std::sin(t) * cs, a * std::sin(s), std::cos(t) * cs));
       }
       sum += wx * (quarter - start) * visible * inner * 2 * quarter * std::numbers::inv_pi;
     }
@@ -100,13 +106,41 @@ double RoughTransmittance::integrate(const Microfacet& facets, double eta, doubl
       double inner = 0;
       for (const auto& [y, wy] : halfNodes) {
         const double q = cut * y;
-        inner += wy * std::exp(-q * q) * throughFacet(facets, eta, wi, Vec(a * p, a * q, 1));
+        inner += wy * std::exp(-q * q) * f(facets, eta, wi, Vec(a * p, a * q, 1));
       }
       sum +=
           wx * (cut - start) * visible * std::exp(-p * p) * inner * 2 * cut * std::numbers::inv_pi;
     }
   }
   return sum * facets.maskingOverCos(cosine);
+}
+
+}  // namespace
+
+double RoughTransmittance::integrate(const Microfacet& facets, double eta, double cosine) {
+  return overVisibleFacets(facets, eta, cosine, throughFacet);
+}
+
+double RoughTransmittance::reflected(const Microfacet& facets, double eta, double cosine) {
+  return overVisibleFacets(facets, eta, cosine, reflectedByFacet);
+}
+
+double RoughTransmittance::facetsInternalReflectance(const Microfacet& facets, double eta) {
+  using Key = std::tuple<FacetDistribution, float, double>;
+  static std::mutex mutex;
+  static std::map<Key, double> known;
+  const std::scoped_lock lock(mutex);
+  const auto [entry, isNew] = known.try_emplace({facets.distribution, facets.alpha, eta}, 0);
+  if (!isNew) return entry->second;
+  constexpr int kCosines = 64;
+  std::vector<double> shares(kCosines);
+  parallelFor(0, kCosines, [&](int i) {
+    const double c = std::max(1e-6, i / (kCosines - 1.0));
+    shares[at(i)] = reflected(facets, 1 / eta, c) * c;
+  });
+  double sum = 0;
+  for (const double share : shares) sum += share;
+  return entry->second = 2 * sum / kCosines;
 }
 
 RoughTransmittance::RoughTransmittance(const Microfacet& facets, double eta) {
