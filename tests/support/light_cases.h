@@ -103,6 +103,11 @@ inline std::vector<LightCase> deltaCases() {
   picture.image = slide;
   projector.project(std::make_shared<const Texture>(picture), across.s, across.t);
   cases.push_back({"spot with a texture", projector, {}});
+  cases.push_back({"projector",
+                   ProjectorLight(Vec3f(0.5f, 1.5f, -0.5f),
+                                  axis - across.s * 0.6f - across.t * 0.2f, across.s * 1.2f,
+                                  across.t * 0.7f, std::make_shared<const Texture>(picture), 2),
+                   {}});
   DirectionalLight directional;
   directional.direction = axis;
   directional.irradiance = Rgbf(1, 2, 0.5f);

@@ -126,6 +126,23 @@ TEST(LightPlugins, Places) {
   EXPECT_EQ(direct<SpotLight>(spot, Vec3f(1, 2, 5)).arriving, Rgbf(0));
 }
 
+// On a plane across its axis, and nothing beside the picture.
+TEST(LightPlugins, ProjectorsLightPlanesEvenly) {
+  const Light projector =
+      make("projector", {{"irradiance", Rgbf(2)}, {"scale", 3.f}, {"fov", 90.f}, {"fovAxis", "x"}});
+  for (const float x : {-3.9f, -1.f, 0.f, 2.f, 3.9f})
+    for (const float y : {-3.9f, 0.f, 3.f}) {
+      const auto d = direct<ProjectorLight>(projector, Vec3f(x, y, 4));
+      EXPECT_NEAR(d.arriving.x * 4 / d.distance, 6 * kPi / 16, 1e-5f) << x << " " << y;
+    }
+  for (const Vec3f& p : {Vec3f(4.1f, 0, 4), Vec3f(0, -4.1f, 4), Vec3f(0, 0, -4), Vec3f(4, 0, 0)})
+    EXPECT_EQ(direct<ProjectorLight>(projector, p).arriving, Rgbf(0));
+  const Light film = make("projector");
+  const float edge = std::tan(glm::radians(46.793f / 2)) / std::sqrt(2.f);
+  EXPECT_GT(direct<ProjectorLight>(film, Vec3f(0.999f * edge, 0, 1)).arriving.x, 0);
+  EXPECT_EQ(direct<ProjectorLight>(film, Vec3f(1.001f * edge, 0, 1)).arriving.x, 0);
+}
+
 TEST(LightPlugins, Mistakes) {
   EXPECT_THROW(make("spot", {{"texture", Rgbf(1)}, {"cutoffAngle", 90.f}}), SceneError);
   EXPECT_THROW(make("spot", {{"cutoffAngle", 0.f}}), SceneError);

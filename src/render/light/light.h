@@ -12,6 +12,7 @@
 #include "render/light/envmap_light.h"
 #include "render/light/light_types.h"
 #include "render/light/point_light.h"
+#include "render/light/projector_light.h"
 #include "render/light/spot_light.h"
 #include "render/light/sun_light.h"
 #include "render/scene/plugin.h"
@@ -20,7 +21,7 @@ namespace h2mc {
 
 // What each alternative provides (all const):
 //
-//   bool isDelta();      // no path can hit it: point, spot, directional
+//   bool isDelta();      // no path can hit it: point, spot, directional, projector
 //   bool isInfinite();   // no position: directional, constant, envmap, sun
 //   bool isEnvironment();  // seen by rays that leave the scene: constant, envmap, sun
 //   float power(const SceneBounds&);  // luminance of the flux (an estimate is enough), > 0 if it emits
@@ -56,7 +57,7 @@ namespace h2mc {
 //   unsigned wrapsDirect(const LightContext&);
 //   unsigned wrapsEmission(const LightContext&);
 using Light = std::variant<AreaLight, PointLight, SpotLight, DirectionalLight, ConstantLight,
-                           EnvmapLight, SunLight>;
+                           EnvmapLight, SunLight, ProjectorLight>;
 
 // Whether suns stand before it.
 template <class L>

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "render/camera/camera.h"
 #include "render/image/image_io.h"
 #include "render/light/common_parameters.h"
 #include "render/light/environment_transform.h"
@@ -37,6 +38,16 @@ constexpr std::array kSpotParameters{
               "degrees from the axis to where the intensity starts to fall; 3/4 of cutoffAngle"},
     Parameter{"texture", ParameterType::kTexture, "",
               "a factor, projected: the whole of it at the cutoff; for angles below 90 degrees"},
+    kSamplingWeightParameter};
+constexpr std::array kProjectorParameters{
+    Parameter{"irradiance", ParameterType::kTexture, "1",
+              "the picture: over pi, the irradiance of a plane at unit distance"},
+    Parameter{"scale", ParameterType::kNumber, "1", "a factor"},
+    Parameter{"toWorld", ParameterType::kTransform, "", "from the light, which looks along +z"},
+    Parameter{"fov", ParameterType::kNumber, "",
+              "field of view, 1e-4 to 179.9 degrees; that of 50 mm for 35 mm film"},
+    Parameter{"fovAxis", ParameterType::kString, "x",
+              "the picture's axis that it is measured along", "x|y"},
     kSamplingWeightParameter};
 constexpr std::array kDirectionalParameters{
     kToWorld,
@@ -109,6 +120,35 @@ Light createSpot(const Properties& properties) {
   return light;
 }
 
+// Width over height of a texture.
+float aspectOf(const Texture& texture) {
+  const auto* bitmap = std::get_if<BitmapTexture>(&texture);
+  return bitmap
+             ? static_cast<float>(bitmap->image->width) / static_cast<float>(bitmap->image->height)
+             : 1;
+}
+
+Light createProjector(const Properties& properties) {
+  const TexturePtr picture = properties.texture("irradiance");
+  const float scale = properties.number("scale");
+  if (scale < 0) properties.fail("scale", "expected a number that is not negative");
+  const bool given = properties.given("fov");
+  constexpr float kOfFilm = 46.7930f;  // degrees, of the diagonal
+  const float fov = given ? numberIn(properties, "fov", 1e-4f, 179.9f) : kOfFilm;
+  const auto axis = !given                                ? Camera::FovAxis::kDiagonal
+                    : properties.string("fovAxis") == "y" ? Camera::FovAxis::kY
+                                                          : Camera::FovAxis::kX;
+  const Camera camera(properties.transform("toWorld"), fov, axis, aspectOf(*picture));
+  // At unit distance, as a camera sees it.
+  const auto at = [&](float u, float v) {
+    const Vec3<double> d = camera.direction(double(u), double(v));
+    return d / dot(d, Vec3<double>(camera.forward()));
+  };
+  const Vec3<double> corner = at(0, 0);
+  return ProjectorLight(camera.position(), Vec3f(corner), Vec3f(at(1, 0) - corner),
+                        Vec3f(at(0, 1) - corner), picture, scale);
+}
+
 Light createDirectional(const Properties& properties) {
   if (properties.given("direction") && properties.given("toWorld"))
     properties.fail("direction", "give either direction or toWorld");
@@ -150,6 +190,8 @@ constexpr std::array kOwnPlugins{
     Plugin<Light>{"point", "light from a point, the same in all directions", kPointParameters,
                   createPoint},
     Plugin<Light>{"spot", "light from a point into a cone around +z", kSpotParameters, createSpot},
+    Plugin<Light>{"projector", "a picture thrown from a point, as a camera would take it",
+                  kProjectorParameters, createProjector},
     Plugin<Light>{"directional", "parallel light, along +z", kDirectionalParameters,
                   createDirectional},
     Plugin<Light>{"constant", "the same light from every direction", kConstantParameters,

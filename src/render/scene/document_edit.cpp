@@ -102,7 +102,14 @@ std::string colorOf(const std::string& type) {
 }
 
 // Whether a light of this type has a number for that.
-bool hasScale(const std::string& type) { return isOneOf(type, {"envmap", "sky", "sun", "sunsky"}); }
+bool hasScale(const std::string& type) {
+  return isOneOf(type, {"envmap", "sky", "sun", "sunsky", "projector"});
+}
+
+// Whether it stands at a point, so that what it sends in a direction grows with the world's area.
+bool isAtPoint(const XmlElement& element) {
+  return isEmitter(element) && isOneOf(typeOf(element), {"point", "spot", "projector"});
+}
 
 double scaleOf(const XmlElement& emitter, const char* name) {
   const XmlElement* const scale = findParameter(emitter, name);
@@ -293,7 +300,7 @@ int moveScene(SceneDocument& document, double scale, const glm::dvec3& offset) {
       }
       return true;
     }
-    if (isEmitter(element) && (type == "point" || type == "spot")) {
+    if (isAtPoint(element)) {
       if (XmlElement* const position = findParameter(element, "position"))
         *position = makeElement(
             *position, "point",
@@ -319,7 +326,7 @@ ScenePlaces placesOf(const SceneDocument& document) {
     } else if (element.name == "shape") {
       if (type != "deforming" && type != "shapegroup" && !grouped.count(&element))
         places.things.push_back(placeOf(element));
-    } else if (isEmitter(element) && (type == "point" || type == "spot")) {
+    } else if (isAtPoint(element)) {
       places.things.push_back(placeOf(element));
     }
   });
@@ -335,6 +342,8 @@ double brightestLight(const SceneDocument& document) {
     if (!color.empty()) {
       double& brightest = color == "intensity" ? intensity : radiance;
       brightest = std::max(brightest, largestColor(document, element, color));
+    } else if (type == "projector") {
+      intensity = std::max(intensity, scaleOf(element, "scale"));
     } else if (hasScale(type)) {
       int given = 0;
       for (const char* part : {"sunScale", "skyScale"}) {

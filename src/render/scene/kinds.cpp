@@ -12,7 +12,7 @@ constexpr const char* kShapes[] = {
     "moving triangle mesh", "moving sphere", "moving disk", "moving cylinder",
     "moving instance",      "instance"};
 constexpr const char* kLights[] = {"area",     "point",  "spot", "directional",
-                                   "constant", "envmap", "sun"};
+                                   "constant", "envmap", "sun",  "projector"};
 // Bsdf's, then those of FurtherBsdf, its last alternative.
 constexpr const char* kBsdfs[] = {
     "diffuse",      "phong",   "roughconductor", "roughdielectric", "conductor",
