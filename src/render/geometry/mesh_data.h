@@ -55,8 +55,8 @@ struct MeshOptions {
 // Throws MeshError when the transformed numbers are not finite.
 TriangleMesh finishMesh(MeshData data, const MeshOptions& options, std::size_t& dropped);
 
-// One mesh of several states of the same triangles at equally spaced moments, at least 2. Topology and
-// what its vertices have besides positions and normals are the first's. Precondition: as many vertices and normals in all.
+// One mesh of several states of the same triangles at equally spaced moments, at least 2. All but positions and normals
+// are the first's. Precondition: as many vertices and normals in all.
 MovingMesh joinSteps(std::vector<TriangleMesh> steps);
 
 // As finishMesh, with a transform for each of the equally spaced moments instead of options.toWorld.

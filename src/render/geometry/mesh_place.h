@@ -8,7 +8,7 @@
 
 namespace h2mc {
 
-// A point of a mesh as a pair of numbers that can stand for its texture coordinates: which triangle it is on, and where.
+// A point of a mesh as two numbers that can stand for its texture coordinates: which triangle it is on, and where.
 // Triangles have cells of 2 x 2, `columns` to a row, and their barycentric coordinates are in the middle of these, so
 // that rounding leads to no other triangle.
 struct MeshPlace {

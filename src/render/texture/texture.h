@@ -16,8 +16,8 @@
 namespace h2mc {
 
 // Each has `template <class T> Rgb<T> evaluate(const Vec2<T>& uv) const`, differentiated with
-// respect to uv within a cell of the texture (or a triangle of the mesh), and `Rgbf average() const` and `Rgbf maximum() const`
-// (per channel, over the texture). A class of its own, so that textures can have textures.
+// respect to uv within a cell of the texture or a triangle of the mesh, and `Rgbf average() const` and
+// `Rgbf maximum() const` (per channel, over the texture). A class of its own, so that textures can have textures.
 using AnyTexture =
     std::variant<ConstantTexture, CheckerboardTexture, BitmapTexture, ProductTexture, MeshTexture>;
 struct Texture : AnyTexture {
