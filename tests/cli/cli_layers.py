@@ -21,10 +21,11 @@ BELOW = {
     "demo": ["compare"],
     "inspect": ["compare"],
     "cli": ["check", "demo", "inspect"],
+    "python": ["check"],
 }
 
 # Layers whose units need each other one way only. The others have units whose source needs a header that needs theirs.
-ONE_WAY = ["ad", "compare", "demo", "cli"]
+ONE_WAY = ["ad", "compare", "demo", "cli", "python"]
 
 
 def reachable(layer):
