@@ -20,6 +20,7 @@ PrimarySpace::PrimarySpace(ScenePtr scene, int s, int t)
 
 std::vector<std::string> PrimarySpace::names() const {
   std::vector<std::string> names;
+  names.reserve(at(columns()));
   for (int i = 0; i < technique_.dimension(); ++i) names.push_back(fmt::format("u{}", i));
   if (scene_->shared().aperture) names.insert(names.end(), {"aperture0", "aperture1"});
   if (scene_->shared().time) names.emplace_back("time");
