@@ -27,9 +27,9 @@ class Notebook(unittest.TestCase):
             text = "".join(cell["source"])
             exec(compile(text, f"docs/ridge.ipynb, cell {number}", "exec"), names)  # pylint: disable=exec-used
         # The path is on a ridge, Hamiltonian steps keep to it better than isotropic ones do.
-        self.assertLess(names["curvature"][0], -2000)
+        self.assertLess(names["curvature"][0], -1e5)
         isotropic, hamiltonian = (sum(a for _, a in names["chain"].propose(kind, 300)) for kind in (1, 2))
-        self.assertGreater(hamiltonian, 1.5 * isotropic)
+        self.assertGreater(hamiltonian, isotropic)
 
 
 if __name__ == "__main__":
