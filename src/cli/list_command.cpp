@@ -230,12 +230,14 @@ Names listSections() {
 void addListCommand(CLI::App& app, Run& run) {
   auto what = std::make_shared<std::string>();
   auto markdown = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand(
-      "list",
-      "BSDFs, lights, shapes, textures, integrators, mutations and presets, with their parameters");
+  CLI::App* command =
+      app.add_subcommand("list",
+                         "BSDFs, lights, shapes, textures, integrators, mutations, presets, "
+                         "sensors, films and filters, with their parameters");
   command
       ->add_option("WHAT", *what,
-                   "bsdfs, lights, shapes, textures, integrators, mutations, presets, or the "
+                   "bsdfs, lights, shapes, textures, integrators, mutations, presets, sensors, "
+                   "films, filters, or the "
                    "name of one of their entries; default: everything")
       ->type_name("SECTION");
   command->add_flag("--markdown", *markdown, "as Markdown tables, those of docs/scene-format.md");
