@@ -149,7 +149,8 @@ PythonChain::PythonChain(ScenePtr scene,
       film_(scene_->film) {
   SlotNumbers slots;
   static const OptionSet kNone;
-  kernels_.large = largeSteps().front().create({target_, techniques_, minEdges_, kNone, slots});
+  kernels_.large =
+      largeStepNamed("bidirectional").create({target_, techniques_, minEdges_, kNone, slots});
   kernels_.largeProbability = largeStep;
   double sum = 0;
   for (const auto& [wish, share] : mutations) {
@@ -282,6 +283,7 @@ mutations: a dict of small steps and their shares. A step is the name of one of 
 (y, log_ratio), or None for none: x and y are rows of the technique's array, and
 log_ratio = log q(y -> x) - log q(x -> y), 0 for symmetric steps. Proposals outside of [0, 1) are rejected. The
 program evaluates the target, accepts, and splats.
+What steps of the program learn between epochs of a render, they do not learn here: chains have no epochs.
 large_step: the probability of a new, independent path in place of a small step.
 bootstrap: bidirectional samples to start from, and for the mean luminance.)");
 }

@@ -6,6 +6,7 @@
 #include "mcmc/render/integrators.h"
 #include "render/bsdf/bsdf.h"
 #include "render/light/light.h"
+#include "render/scene/sensor_plugins.h"
 #include "render/scene/shape_plugins.h"
 #include "render/texture/texture.h"
 
@@ -14,23 +15,7 @@ namespace {
 
 using enum ParameterType;
 
-// The sensor's parts have tables that nobody else sees.
-constexpr Parameter kSensor[] = {{"toWorld", kTransform, "", ""},
-                                 {"fov", kNumber, "45", ""},
-                                 {"fovAxis", kString, "x", "", "x|y|diagonal|smaller|larger"},
-                                 {"focalLength", kString, "50mm", ""},
-                                 {"nearClip", kNumber, "0.01", ""},
-                                 {"farClip", kNumber, "1000", ""},
-                                 {"shutterOpen", kNumber, "0", ""},
-                                 {"shutterClose", kNumber, "1", ""}};
-constexpr Parameter kFilm[] = {
-    {"width", kInteger, "16", ""},      {"height", kInteger, "12", ""},
-    {"cropOffsetX", kInteger, "2", ""}, {"cropOffsetY", kInteger, "1", ""},
-    {"cropWidth", kInteger, "4", ""},   {"cropHeight", kInteger, "5", ""}};
-constexpr Parameter kFilter[] = {{"radius", kNumber, "1", ""},
-                                 {"stddev", kNumber, "0.5", ""},
-                                 {"B", kNumber, "0.33", ""},
-                                 {"C", kNumber, "0.33", ""}};
+// Samplers of all kinds are read alike: the reader has no table of them.
 constexpr Parameter kSampler[] = {{"sampleCount", kInteger, "4", ""}};
 
 std::vector<ElementType> makeElementTypes() {
@@ -42,10 +27,9 @@ std::vector<ElementType> makeElementTypes() {
   for (const auto& p : texturePlugins()) all.push_back({"texture", p.name, p.parameters});
   for (const IntegratorFactory& f : allIntegrators())
     all.push_back({"integrator", f.plugin.name, f.plugin.parameters});
-  all.push_back({"sensor", "perspective", kSensor});
-  all.push_back({"film", "hdrfilm", kFilm});
-  for (const char* filter : {"box", "tent", "gaussian", "mitchell", "catmullrom"})
-    all.push_back({"rfilter", filter, kFilter});
+  for (const SensorPlugin& p : sensorPlugins()) all.push_back({"sensor", p.name, p.parameters});
+  for (const SensorPlugin& p : filmPlugins()) all.push_back({"film", p.name, p.parameters});
+  for (const SensorPlugin& p : filterPlugins()) all.push_back({"rfilter", p.name, p.parameters});
   all.push_back({"sampler", "independent", kSampler});
   return all;
 }

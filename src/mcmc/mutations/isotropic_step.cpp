@@ -28,11 +28,11 @@ Proposal IsotropicStep::propose(ChainState& current, ChainState& proposed,
     to.sample.choice[at(i)] = wrap(from.sample.choice[at(i)] + size * offset(*context.random));
   to.sample.time = from.sample.time;
   to.sample.aperture = from.sample.aperture;
-  float shared[kMostShared];
-  getShared(target_.shared(), from.sample, shared);
-  for (int i = 0; i < target_.shared().count(); ++i)
-    shared[i] = reflect(shared[i] + size * offset(*context.random));
-  setShared(target_.shared(), shared, to.sample);
+  const SharedCoordinates shared = target_.shared();
+  float x[kMostShared];
+  getShared(shared, from.sample, x);
+  for (int i = 0; i < shared.count(); ++i) x[i] = reflect(x[i] + size * offset(*context.random));
+  setShared(shared, x, to.sample);
   return target_.evaluate(to) ? Proposal::withLogRatio(0) : Proposal::none();
 }
 
