@@ -21,7 +21,7 @@ BELOW = {
     "demo": ["compare"],
     "inspect": ["compare"],
     "cli": ["check", "demo", "inspect"],
-    "python": ["check"],
+    "python": ["mcmc"],
 }
 
 # Layers whose units need each other one way only. The others have units whose source needs a header that needs theirs.
