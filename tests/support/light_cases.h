@@ -70,7 +70,7 @@ inline std::vector<LightCase> areaCases() {
 
 inline std::vector<LightCase> infiniteCases() {
   std::vector<LightCase> cases;
-  cases.push_back({"constant", ConstantLight{Rgbf(1, 2, 3)}, {}});
+  cases.push_back({"constant", ConstantLight{{}, Rgbf(1, 2, 3)}, {}});
   cases.push_back({"envmap", EnvmapLight(sky(16, 8), 2, tilt()), {}});
   cases.push_back(
       {"mirrored envmap", EnvmapLight(sky(9, 5), 2, glm::mat3(-1, 0, 0, 0, 1, 0, 0, 0, 1)), {}});

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "render/light/light_sampling.h"
+#include "render/light/light_kinds.h"
 
 namespace h2mc {
 
 // The same radiance from every direction.
-struct ConstantLight {
+struct ConstantLight : LightWithoutArea {
   Rgbf radiance{1};
 
   bool isDelta() const { return false; }
@@ -37,7 +37,6 @@ struct ConstantLight {
             T(S(kInvPi / 4) * detail::diskPdf<S>(context.bounds))};
   }
 
-  PrimitiveId choosePrimitive(const LightContext&, float) const { return {}; }
   bool invertDirect(const LightContext&, PrimitiveId, const Vec3f&, const Vec3f& direction, float,
                     Vec2f& u, float& choice) const {
     u = detail::invertUniformSphere(direction);

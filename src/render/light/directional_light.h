@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "render/light/light_sampling.h"
+#include "render/light/light_kinds.h"
 
 namespace h2mc {
 
 // Light from infinitely far that travels along one direction.
-struct DirectionalLight {
+struct DirectionalLight : DeltaLight {
   Vec3f direction{0, 0, 1};  // unit: the way the light goes
   Rgbf irradiance{1};        // on a surface across the direction
 
-  bool isDelta() const { return true; }
   bool isInfinite() const { return true; }
-  bool isEnvironment() const { return false; }
   float power(const SceneBounds& bounds) const {
     return luminance(irradiance) / detail::diskPdf<float>(bounds);
   }
@@ -44,12 +42,6 @@ struct DirectionalLight {
     return r;
   }
 
-  template <class T>
-  LightHit<T> hit(const LightContext&, const SurfacePoint<T>&, const Vec3<T>&) const {
-    return detail::noHit<T>();
-  }
-
-  PrimitiveId choosePrimitive(const LightContext&, float) const { return {}; }
   bool invertDirect(const LightContext&, PrimitiveId, const Vec3f&, const Vec3f& toLight, float,
                     Vec2f& u, float& choice) const {
     u = Vec2f(0.5f);
@@ -63,7 +55,6 @@ struct DirectionalLight {
     return dot(along, direction) > 1 - 1e-5f &&
            detail::invertDiskTowards(context.bounds, -direction, origin, u);
   }
-  unsigned wrapsDirect(const LightContext&) const { return 0; }
   unsigned wrapsEmission(const LightContext&) const { return 2; }
 };
 

@@ -22,7 +22,7 @@ std::size_t pixels(const Light& light) {
 Light sumOfEnvironments(const Light& a, const Light& b) {
   if (pixels(a) < pixels(b)) return sumOfEnvironments(b, a);
   if (const auto* constant = std::get_if<ConstantLight>(&a))
-    return ConstantLight{constant->radiance + std::get<ConstantLight>(b).radiance};
+    return ConstantLight{{}, constant->radiance + std::get<ConstantLight>(b).radiance};
   const auto& map = std::get<EnvmapLight>(a);
   Image image = map.image();
   for (int y = 0; y < image.height; ++y)

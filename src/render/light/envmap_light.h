@@ -6,14 +6,14 @@
 
 #include "render/core/distribution.h"
 #include "render/image/image.h"
-#include "render/light/light_sampling.h"
+#include "render/light/light_kinds.h"
 
 namespace h2mc {
 
 // Radiance from infinitely far, from a picture in latitude and longitude. It is bilinear between
 // pixel centres, and so is the density of sampled directions but for the sine of the elevation:
 // radiance over density hardly varies but in hue.
-class EnvmapLight {
+class EnvmapLight : public LightWithoutArea {
  public:
   // toWorld: a rotation, or one with a reflection. Precondition: the picture is not empty, finite and
   // not negative.
@@ -50,7 +50,6 @@ class EnvmapLight {
   LightHit<T> hit(const LightContext& context, const SurfacePoint<T>&,
                   const Vec3<T>& direction) const;
 
-  PrimitiveId choosePrimitive(const LightContext&, float) const { return {}; }
   bool invertDirect(const LightContext&, PrimitiveId, const Vec3f& reference,
                     const Vec3f& direction, float distance, Vec2f& u, float& choice) const;
   bool invertEmission(const LightContext& context, PrimitiveId, const Vec3f& origin,

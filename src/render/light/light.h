@@ -19,7 +19,7 @@
 
 namespace h2mc {
 
-// What each alternative provides (all const):
+// What each alternative provides (all const), some of it by way of light_kinds.h:
 //
 //   bool isDelta();      // no path can hit it: point, spot, directional, projector
 //   bool isInfinite();   // no position: directional, constant, envmap, sun

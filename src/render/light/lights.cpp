@@ -162,7 +162,7 @@ Light createDirectional(const Properties& properties) {
 }
 
 Light createConstant(const Properties& properties) {
-  return ConstantLight{properties.color("radiance")};
+  return ConstantLight{{}, properties.color("radiance")};
 }
 
 Light createEnvmap(const Properties& properties) {

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "render/light/light_sampling.h"
+#include "render/light/light_kinds.h"
 
 namespace h2mc {
 
 // Emits the same in all directions from a point.
-struct PointLight {
-  Vec3f position{0};
+struct PointLight : LightAtPoint {
   Rgbf intensity{1};  // flux per solid angle
 
-  bool isDelta() const { return true; }
-  bool isInfinite() const { return false; }
-  bool isEnvironment() const { return false; }
   float power(const SceneBounds&) const { return 4 * kPi * luminance(intensity); }
 
   template <class T>
@@ -39,18 +35,6 @@ struct PointLight {
     return r;
   }
 
-  template <class T>
-  LightHit<T> hit(const LightContext&, const SurfacePoint<T>&, const Vec3<T>&) const {
-    return detail::noHit<T>();
-  }
-
-  PrimitiveId choosePrimitive(const LightContext&, float) const { return {}; }
-  bool invertDirect(const LightContext&, PrimitiveId, const Vec3f& reference,
-                    const Vec3f& direction, float distance, Vec2f& u, float& choice) const {
-    u = Vec2f(0.5f);
-    choice = 0.5f;
-    return detail::isNear(reference + direction * distance, position, distance);
-  }
   bool invertEmission(const LightContext&, PrimitiveId, const Vec3f& origin, const Vec3f& direction,
                       Vec2f& u, Vec2f& v, float& choice) const {
     u = Vec2f(0.5f);
@@ -58,7 +42,6 @@ struct PointLight {
     v = detail::invertUniformSphere(direction);
     return detail::isNear(origin, position, 0);
   }
-  unsigned wrapsDirect(const LightContext&) const { return 0; }
   unsigned wrapsEmission(const LightContext&) const { return 4; }
 };
 

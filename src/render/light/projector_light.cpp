@@ -5,9 +5,9 @@
 
 namespace h2mc {
 
-ProjectorLight::ProjectorLight(const Vec3f& position, const Vec3f& corner, const Vec3f& edgeU,
+ProjectorLight::ProjectorLight(const Vec3f& place, const Vec3f& corner, const Vec3f& edgeU,
                                const Vec3f& edgeV, TexturePtr irradiance, float scale)
-    : position_(position),
+    : LightAtPoint{{}, place},
       axis_(glm::normalize(glm::cross(glm::dvec3(edgeU), glm::dvec3(edgeV)))),
       corner_(corner),
       edgeU_(edgeU),
@@ -26,21 +26,13 @@ float ProjectorLight::power(const SceneBounds&) const {
   return scale_ * area_ * luminance(average(*irradiance_));
 }
 
-bool ProjectorLight::invertDirect(const LightContext&, PrimitiveId, const Vec3f& reference,
-                                  const Vec3f& direction, float distance, Vec2f& u,
-                                  float& choice) const {
-  u = Vec2f(0.5f);
-  choice = 0.5f;
-  return detail::isNear(reference + direction * distance, position_, distance);
-}
-
 bool ProjectorLight::invertEmission(const LightContext&, PrimitiveId, const Vec3f& origin,
                                     const Vec3f& direction, Vec2f& u, Vec2f& v,
                                     float& choice) const {
   u = Vec2f(0.5f);
   choice = 0.5f;
   const float cosine = dot(direction, axis_);
-  if (!(cosine > 0) || !detail::isNear(origin, position_, 0)) return false;
+  if (!(cosine > 0) || !detail::isNear(origin, position, 0)) return false;
   const Vec2f uv = project(direction, cosine);
   constexpr float kRounding = 1e-4f;
   if (std::min(uv.x, uv.y) < -kRounding || std::max(uv.x, uv.y) > 1 + kRounding) return false;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "render/light/light_sampling.h"
+#include "render/light/light_kinds.h"
 #include "render/texture/texture.h"
 
 namespace h2mc {
 
 // Throws a picture from a point, as a pinhole camera would take it: the texture is the irradiance, over pi, of a plane
 // across the axis at unit distance, and nothing leaves beside it.
-class ProjectorLight {
+class ProjectorLight : public LightAtPoint {
  public:
   ProjectorLight()
       : ProjectorLight(Vec3f(0), Vec3f(0.5f, 0.5f, 1), Vec3f(-1, 0, 0), Vec3f(0, -1, 0), nullptr,
@@ -18,27 +18,23 @@ class ProjectorLight {
   ProjectorLight(const Vec3f& position, const Vec3f& corner, const Vec3f& edgeU, const Vec3f& edgeV,
                  TexturePtr irradiance, float scale);
 
-  bool isDelta() const { return true; }
-  bool isInfinite() const { return false; }
-  bool isEnvironment() const { return false; }
   float power(const SceneBounds&) const;
 
   template <class T>
   DirectLight<T> sampleDirect(const LightContext&, PrimitiveId, const Vec3<T>& reference, const T&,
                               const T&) const {
-    return detail::directFromPoint<T>(
-        position_, reference, [&](DirectLight<T>& r, const T& spread) {
-          using S = Scalar<T>;
-          const T cosine = -dot(r.direction, plain<T>(axis_));
-          r.arriving = lift<T>(Vec3<S>(0));
-          r.emissionPdf = T(S(0));
-          if (!(value(cosine) > 0)) return;
-          const Vec2<T> uv = project<T>(Vec3<T>(-r.direction), cosine);
-          if (!isInside(value2(uv))) return;
-          const T inverse = S(1) / (cosine * cosine * cosine);
-          r.arriving = coloured(uv, T(spread * inverse));
-          r.emissionPdf = inverse * S(1 / area_);
-        });
+    return detail::directFromPoint<T>(position, reference, [&](DirectLight<T>& r, const T& spread) {
+      using S = Scalar<T>;
+      const T cosine = -dot(r.direction, plain<T>(axis_));
+      r.arriving = lift<T>(Vec3<S>(0));
+      r.emissionPdf = T(S(0));
+      if (!(value(cosine) > 0)) return;
+      const Vec2<T> uv = project<T>(Vec3<T>(-r.direction), cosine);
+      if (!isInside(value2(uv))) return;
+      const T inverse = S(1) / (cosine * cosine * cosine);
+      r.arriving = coloured(uv, T(spread * inverse));
+      r.emissionPdf = inverse * S(1 / area_);
+    });
   }
 
   template <class T>
@@ -46,7 +42,7 @@ class ProjectorLight {
                                const T& v1) const {
     using S = Scalar<T>;
     EmittedRay<T> r;
-    r.origin = lift<T>(plain<T>(position_));
+    r.origin = lift<T>(plain<T>(position));
     r.normal = lift<T>(Vec3<S>(0));
     r.direction = normalize(
         ad::combine(v0, plain<T>(edgeU_), v1, plain<T>(edgeV_), T(S(1)), plain<T>(corner_)));
@@ -57,17 +53,8 @@ class ProjectorLight {
     return r;
   }
 
-  template <class T>
-  LightHit<T> hit(const LightContext&, const SurfacePoint<T>&, const Vec3<T>&) const {
-    return detail::noHit<T>();
-  }
-
-  PrimitiveId choosePrimitive(const LightContext&, float) const { return {}; }
-  bool invertDirect(const LightContext&, PrimitiveId, const Vec3f& reference,
-                    const Vec3f& direction, float distance, Vec2f& u, float& choice) const;
   bool invertEmission(const LightContext&, PrimitiveId, const Vec3f& origin, const Vec3f& direction,
                       Vec2f& u, Vec2f& v, float& choice) const;
-  unsigned wrapsDirect(const LightContext&) const { return 0; }
   unsigned wrapsEmission(const LightContext&) const { return 0; }
 
  private:
@@ -88,7 +75,7 @@ class ProjectorLight {
     return modulate<T>(*irradiance_, uv, T(factor * Scalar<T>(scale_)));
   }
 
-  Vec3f position_, axis_, corner_, edgeU_, edgeV_;
+  Vec3f axis_, corner_, edgeU_, edgeV_;
   Vec3f byU_, byV_;  // edges over the squares of their lengths
   float originU_, originV_;
   float area_;

@@ -5,9 +5,9 @@
 
 namespace h2mc {
 
-SpotLight::SpotLight(const Vec3f& position, const Vec3f& axis, const Rgbf& intensity, float cutoff,
+SpotLight::SpotLight(const Vec3f& place, const Vec3f& axis, const Rgbf& intensity, float cutoff,
                      float beam)
-    : position_(position),
+    : LightAtPoint{{}, place},
       axis_(axis),
       intensity_(intensity),
       cutoff_(glm::radians(cutoff)),
@@ -34,20 +34,12 @@ float SpotLight::power(const SceneBounds&) const {
          luminance(texture_ ? intensity_ * average(*texture_) : intensity_);
 }
 
-bool SpotLight::invertDirect(const LightContext&, PrimitiveId, const Vec3f& reference,
-                             const Vec3f& direction, float distance, Vec2f& u,
-                             float& choice) const {
-  u = Vec2f(0.5f);
-  choice = 0.5f;
-  return detail::isNear(reference + direction * distance, position_, distance);
-}
-
 bool SpotLight::invertEmission(const LightContext&, PrimitiveId, const Vec3f& origin,
                                const Vec3f& direction, Vec2f& u, Vec2f& v, float& choice) const {
   u = Vec2f(0.5f);
   choice = 0.5f;
   const Vec3f local = Frame<float>::fromNormal(axis_).toLocal(direction);
-  if (local.z < cosCutoff_ - 1e-5f || !detail::isNear(origin, position_, 0)) return false;
+  if (local.z < cosCutoff_ - 1e-5f || !detail::isNear(origin, position, 0)) return false;
   // 1 - cos from the sine where the angle is small.
   const float sine2 = local.x * local.x + local.y * local.y;
   const float height = local.z > 0 ? sine2 / (1 + local.z) : 1 - local.z;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "render/light/light_sampling.h"
+#include "render/light/light_kinds.h"
 #include "render/texture/texture.h"
 
 namespace h2mc {
 
 // Emits from a point into a cone: constant within the beam, then falling linearly with the angle to
 // zero at the cutoff. A texture colours it, projected on a plane across the axis.
-class SpotLight {
+class SpotLight : public LightAtPoint {
  public:
   SpotLight() : SpotLight(Vec3f(0), Vec3f(0, 0, 1), Rgbf(1), 20, 15) {}
   // axis: unit; angles from the axis in degrees. Precondition: 0 < cutoff <= 180, 0 <= beam <= cutoff.
@@ -19,22 +19,18 @@ class SpotLight {
   // in direction `x`, which with y is across the axis; unit all. Precondition: cutoff below 90 degrees.
   void project(TexturePtr texture, const Vec3f& x, const Vec3f& y);
 
-  bool isDelta() const { return true; }
-  bool isInfinite() const { return false; }
-  bool isEnvironment() const { return false; }
   float power(const SceneBounds&) const;
 
   template <class T>
   DirectLight<T> sampleDirect(const LightContext&, PrimitiveId, const Vec3<T>& reference, const T&,
                               const T&) const {
-    return detail::directFromPoint<T>(
-        position_, reference, [&](DirectLight<T>& r, const T& spread) {
-          using S = Scalar<T>;
-          const T fade = falloff<T>(Vec3<T>(-r.direction)) * spread;
-          r.arriving = coloured<T>(Vec3<T>(-r.direction), fade);
-          r.emissionPdf =
-              T(dot(value3(r.direction), plain<T>(axis_)) < -S(cosCutoff_) ? S(conePdf_) : S(0));
-        });
+    return detail::directFromPoint<T>(position, reference, [&](DirectLight<T>& r, const T& spread) {
+      using S = Scalar<T>;
+      const T fade = falloff<T>(Vec3<T>(-r.direction)) * spread;
+      r.arriving = coloured<T>(Vec3<T>(-r.direction), fade);
+      r.emissionPdf =
+          T(dot(value3(r.direction), plain<T>(axis_)) < -S(cosCutoff_) ? S(conePdf_) : S(0));
+    });
   }
 
   template <class T>
@@ -47,7 +43,7 @@ class SpotLight {
     const Vec2<T> c = detail::circle(v1);
     const Frame<S> frame = Frame<S>::fromNormal(plain<T>(axis_));
     EmittedRay<T> r;
-    r.origin = lift<T>(plain<T>(position_));
+    r.origin = lift<T>(plain<T>(position));
     r.normal = lift<T>(Vec3<S>(0));
     r.direction =
         ad::combine(T(sine * c.x), frame.s, T(sine * c.y), frame.t, T(S(1) - height), frame.n);
@@ -58,17 +54,8 @@ class SpotLight {
     return r;
   }
 
-  template <class T>
-  LightHit<T> hit(const LightContext&, const SurfacePoint<T>&, const Vec3<T>&) const {
-    return detail::noHit<T>();
-  }
-
-  PrimitiveId choosePrimitive(const LightContext&, float) const { return {}; }
-  bool invertDirect(const LightContext&, PrimitiveId, const Vec3f& reference,
-                    const Vec3f& direction, float distance, Vec2f& u, float& choice) const;
   bool invertEmission(const LightContext&, PrimitiveId, const Vec3f& origin, const Vec3f& direction,
                       Vec2f& u, Vec2f& v, float& choice) const;
-  unsigned wrapsDirect(const LightContext&) const { return 0; }
   unsigned wrapsEmission(const LightContext&) const { return 8; }
 
  private:
@@ -104,7 +91,7 @@ class SpotLight {
     return factor * evaluate<T>(*texture_, uv);
   }
 
-  Vec3f position_, axis_;
+  Vec3f axis_;
   Rgbf intensity_;
   float cutoff_, beam_;  // radians
   float cosCutoff_, cosBeam_, conePdf_;

@@ -13,7 +13,7 @@ namespace h2mc {
 // A disc infinitely far, with the same radiance from all of it: the sun. It stands before the environment: of the
 // directions in it all light is its own, what the environment would send from there included (`behind`). So every
 // direction has one light.
-class SunLight {
+class SunLight : public LightWithoutArea {
  public:
   using Behind = std::variant<std::monostate, ConstantLight, EnvmapLight>;
 
@@ -59,7 +59,6 @@ class SunLight {
     return {radianceFrom<T>(context, direction), pdf, pdf * detail::diskPdf<S>(context.bounds)};
   }
 
-  PrimitiveId choosePrimitive(const LightContext&, float) const { return {}; }
   bool invertDirect(const LightContext&, PrimitiveId, const Vec3f&, const Vec3f& direction, float,
                     Vec2f& u, float& choice) const {
     choice = 0.5f;
