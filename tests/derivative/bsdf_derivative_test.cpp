@@ -89,7 +89,8 @@ TEST(BsdfDerivative, WeightsAreAsGoodInFloat) {
       roughDielectric(facets(kGgx, 0.05f), 1.5f),
       roughPlastic(facets(kGgx, 0.1f), {0.6f, 0.3f, 0.1f}, 1.5f, false),
       coating(1.5f, phong(0.4f, 0.3f, 50)),
-      roughCoating(facets(kGgx, 0.1f), 1.5f, diffuse(Rgbf(0.5f)), Rgbf(0.2f))};
+      roughCoating(facets(kGgx, 0.1f), 1.5f, diffuse(Rgbf(0.5f)), Rgbf(0.2f)),
+      FurtherBsdf{principled({0.3f, 0.2f, 0.5f}, kPrincipledAll, 1.4f)}};
   int checked = 0;
   for (int b = 0; b < static_cast<int>(bsdfs.size()); ++b) {
     const Material m = material(b);
@@ -237,6 +238,7 @@ TEST(BsdfDerivative, FiniteInFloatUnderStrain) {
           {"roughcoating", roughCoating(facets(d, alpha), 1.5f, diffuse(Rgbf(0.5f)), Rgbf(2))});
     }
   }
+  for (const BsdfCase& c : extremePrincipled()) cases.push_back(c);
   Random random(32, 1, 0);
   const Vec2f uv(0.3f, 0.4f);
   int finite = 0, all = 0;

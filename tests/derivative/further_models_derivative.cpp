@@ -56,6 +56,14 @@ Scene scene(const testing::SceneFolder& folder, const std::string& motion) {
     <bsdf type="phong"/></bsdf></shape>
   <shape type="disk"><transform name="toWorld"><scale value="0.7"/><translate x="1.5" y="0.9" z="0.8"/></transform>
     <bsdf type="difftrans"/></shape>
+  <shape type="sphere"><point name="center" x="0" y="1.2" z="-0.9"/><float name="radius" value="0.5"/>
+    <bsdf type="principled">
+    <rgb name="baseColor" value="0.5, 0.3, 0.2"/>)" +
+      picture.substr(0, 8) + R"( name="roughness")" + picture.substr(8) + R"(
+    <float name="anisotropic" value="0.5"/><float name="metallic" value="0.2"/><float name="specTrans" value="0.4"/>
+    <float name="specTint" value="0.3"/><float name="sheen" value="0.3"/><float name="sheenTint" value="0.5"/>
+    <float name="flatness" value="0.4"/><float name="clearcoat" value="0.8"/><float name="clearcoatGloss" value="0.1"/>
+    </bsdf></shape>
   <shape type="sphere"><point name="center" x="1.9" y="0.6" z="-0.8"/><float name="radius" value="0.6"/>
     <bsdf type="roughconductor"><string name="distribution" value="phong"/>)" +
       picture.substr(0, 8) + R"( name="alpha")" + picture.substr(8) + "</bsdf></shape></scene>");
@@ -78,7 +86,7 @@ void expectNothingWrong(const Scene& scene, bool moving) {
   }
   EXPECT_GT(judged, 250);
   for (const char* wanted : {"ward", "difftrans", "roughdiffuse", "roughconductor", "diffuse",
-                             "coating", "roughcoating"})
+                             "coating", "roughcoating", "principled"})
     for (std::size_t k = 0; k < bsdfKinds().size(); ++k) {
       if (std::string(bsdfKinds()[k]) == wanted) {
         EXPECT_TRUE((kinds >> k) & 1) << wanted;

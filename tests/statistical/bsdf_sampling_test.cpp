@@ -25,9 +25,10 @@ std::vector<float> cosines(const BsdfCase& c) {
 template <class B>
 Vec3<double> lobeAxis(const B& b, const Vec3f& wi, int lobe) {
   if (b.width(lobe) > 1) return {0, 0, 1};
-  if constexpr (std::is_same_v<B, RoughDielectric>) {
-    if (lobe == B::kTransmit) {
-      const double eta = wi.z > 0 ? 1.0 / b.eta : b.eta;
+  if (const double index = roughIndex(b); index != 1) {
+    static_assert(RoughDielectric::kTransmit == 1 && Principled::kTransmit == 1);
+    if (lobe == 1) {
+      const double eta = wi.z > 0 ? 1 / index : index;
       const double x = -wi.x * eta, y = -wi.y * eta, s2 = x * x + y * y;
       return {x, y, std::sqrt(std::max(0.0, 1 - s2)) * (wi.z > 0 ? -1 : 1)};
     }
@@ -101,9 +102,8 @@ Mean sampledAlbedo(const B& b, const Vec3f& wi, int draws, std::uint64_t stream)
       const Vec3f wo = b.template sample<float>(kUv, wi, lobe, u0, u1);
       const auto e = b.template evaluate<float>(kUv, wi, wo);
       // As importance, so that energy is conserved through refraction too.
-      double scale = 1;
-      if constexpr (std::is_same_v<B, RoughDielectric>)
-        if (wi.z * wo.z < 0) scale = wi.z > 0 ? double(b.eta) * b.eta : 1 / (double(b.eta) * b.eta);
+      const double index = wi.z * wo.z > 0 ? 1 : wi.z > 0 ? roughIndex(b) : 1 / roughIndex(b);
+      const double scale = index * index;
       if (e.pdf > 0) w = scale * e.value.y / e.pdf;
     }
     sum += w;
@@ -132,10 +132,10 @@ TEST(BsdfSampling, AlbedoIsAtMostOneAndMatchesQuadrature) {
             for (const int side : {1, -1}) {
               int lobe = c.entersBack && side * cosine < 0 ? 1 : 0;
               if (lobe == 0 && b.isDelta(0) && b.hasNonDelta() && !b.isDelta(1)) lobe = 1;
-              double scale = 1;
-              if constexpr (std::is_same_v<B, RoughDielectric>)
-                if (lobe == 1)
-                  scale = wi.z > 0 ? double(b.eta) * b.eta : 1 / (double(b.eta) * b.eta);
+              const double index = side * cosine > 0 ? 1
+                                   : wi.z > 0        ? roughIndex(b)
+                                                     : 1 / roughIndex(b);
+              const double scale = index * index;
               const DirectionHistogram sphere(
                   b.isDelta(lobe) ? Vec3<double>(0, 0, 1) : lobeAxis(b, wi, lobe),
                   rings(b.width(lobe)));

@@ -143,6 +143,58 @@ inline FurtherBsdf coating(float eta, Bsdf below, const Rgbf& sigma = Rgbf(0)) {
 inline FurtherBsdf roughCoating(Microfacet f, float eta, Bsdf below, const Rgbf& sigma = Rgbf(0)) {
   return coat(RoughInterface{eta, f, RoughTransmittance::shared(f, eta)}, std::move(below), sigma);
 }
+// All parameters but the colour in the order of PrincipledValues.
+inline Principled principled(const Rgbf& color, const float (&numbers)[Principled::kNumbers],
+                             float eta = 1.5f) {
+  Principled b;
+  b.means = PrincipledValues<float>(color, [&](int i) { return numbers[i]; });
+  b.isIsotropic = numbers[1] == 0;
+  b.refracts = numbers[3] > 0;
+  b.eta = eta;
+  return b;
+}
+// The same with textures around these values.
+inline Principled textured(Principled b, const float (&numbers)[Principled::kNumbers]) {
+  Principled::Textures textures;
+  textures.color = std::make_shared<const Texture>(
+      ProductTexture{constantTexture(b.means.color), picture(0.7f, 1.2f)});
+  for (int i = 0; i < Principled::kNumbers; ++i)
+    textures.numbers[i] = picture(0.7f * numbers[i], 1.2f * numbers[i]);
+  b.textures = std::make_shared<const Principled::Textures>(textures);
+  return b;
+}
+// roughness, anisotropic, metallic, specTrans, specTint, sheen, sheenTint, flatness, clearcoat, clearcoatGloss
+constexpr float kPrincipledCloth[] = {0.6f, 0, 0, 0, 0.5f, 0.5f, 0.4f, 0.6f, 0, 0};
+constexpr float kPrincipledLacquer[] = {0.5f, 0, 0.2f, 0, 0, 0, 0, 0, 0.8f, 0.3f};
+constexpr float kPrincipledMetal[] = {0.45f, 0.8f, 1, 0, 0, 0, 0, 0, 0, 0};
+constexpr float kPrincipledGlass[] = {0.5f, 0, 0, 1, 0, 0, 0, 0, 0, 0};
+constexpr float kPrincipledAll[] = {0.5f, 0.4f, 0.3f, 0.5f, 0.4f, 0.3f, 0.6f, 0.4f, 0.5f, 0.2f};
+
+// At the ends of their ranges: as smooth as can be, as rough, and black, with everything on.
+inline std::vector<BsdfCase> extremePrincipled() {
+  constexpr float kSmooth[] = {0, 1, 0.5f, 0.5f, 1, 1, 1, 1, 1, 1};
+  constexpr float kRough[] = {1, 0, 0, 0.5f, 0, 1, 0, 1, 1, 0};
+  constexpr float kMirror[] = {0, 0, 1, 0, 0, 0, 0, 0, 0, 0};
+  return {{"principled smooth", FurtherBsdf{principled(Rgbf(1), kSmooth)}, true},
+          {"principled smooth inside", FurtherBsdf{principled(Rgbf(1), kSmooth, 0.6f)}, true},
+          {"principled rough", FurtherBsdf{principled(Rgbf(1), kRough)}, true},
+          {"principled black", FurtherBsdf{principled(Rgbf(0), kSmooth)}, true},
+          {"principled nearly air", FurtherBsdf{principled(Rgbf(0.5f), kRough, 1.001f)}, true},
+          {"principled mirror", FurtherBsdf{principled(Rgbf(1), kMirror)}},
+          {"principled without an index", FurtherBsdf{principled(Rgbf(1), kMirror, 1)}},
+          {"principled textured to black",
+           FurtherBsdf{textured(principled(Rgbf(0), kSmooth), kSmooth)}, true}};
+}
+
+// The index of what lies behind a rough interface, over that before it; 1 without one.
+template <class B>
+double roughIndex(const B& b) {
+  if constexpr (std::is_same_v<B, RoughDielectric>) return b.eta;
+  if constexpr (std::is_same_v<B, FurtherBsdf>)
+    if (const auto* p = std::get_if<Principled>(&b.bsdf); p && p->refracts) return p->eta;
+  return 1;
+}
+
 inline bool isCoat(const Bsdf& b, bool rough = false) {
   const auto* further = std::get_if<FurtherBsdf>(&b);
   return further && (std::holds_alternative<RoughCoat>(further->bsdf) ||
@@ -218,6 +270,19 @@ inline const std::vector<BsdfCase>& glossyCases() {
       {"roughcoating of ward", roughCoating(facets(kBeckmann, 0.3f), 1.5f,
                                             ward(WardVariant::kBalanced, 0.3f, 0.4f, 0.4f, 0.4f))},
       {"roughcoating of a mirror", roughCoating(facets(kPhong, 0.2f), 1.5f, conductor(gold()))},
+      {"principled cloth", FurtherBsdf{principled({0.4f, 0.2f, 0.1f}, kPrincipledCloth)}},
+      {"principled lacquer", FurtherBsdf{principled({0.3f, 0.1f, 0.2f}, kPrincipledLacquer)}},
+      {"principled metal", FurtherBsdf{principled({0.9f, 0.6f, 0.3f}, kPrincipledMetal)}},
+      {"principled glass", FurtherBsdf{principled({0.9f, 0.8f, 0.7f}, kPrincipledGlass)}, true},
+      {"principled of all", FurtherBsdf{principled({0.3f, 0.2f, 0.5f}, kPrincipledAll, 1.4f)},
+       true},
+      {"principled inverted", FurtherBsdf{principled({0.2f, 0.3f, 0.2f}, kPrincipledAll, 1 / 1.5f)},
+       true},
+      {"principled textured",
+       FurtherBsdf{textured(principled({0.3f, 0.2f, 0.5f}, kPrincipledAll, 1.4f), kPrincipledAll)},
+       true},
+      {"coating of principled",
+       coating(1.5f, FurtherBsdf{principled({0.3f, 0.1f, 0.2f}, kPrincipledLacquer)})},
   };
   return cases;
 }

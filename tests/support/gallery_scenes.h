@@ -107,6 +107,14 @@ f 1//1 4//4 6//6
   <bsdf type="roughcoating"><float name="alpha" value="0.2"/><bsdf type="phong"/></bsdf></shape>
 <shape type="disk"><transform name="toWorld"><scale value="0.4"/><rotate y="1" angle="60"/>
   <translate x="-0.2" y="0.5" z="2"/></transform><bsdf type="difftrans"/></shape>
+<shape type="sphere"><float name="radius" value="0.3"/>)" +
+      at + R"(x="0.7" y="0.3" z="0.05"/></transform>
+  <bsdf type="principled">
+    <rgb name="baseColor" value="0.5, 0.3, 0.2"/><float name="roughness" value="0.5"/>
+    <float name="anisotropic" value="0.5"/><float name="metallic" value="0.2"/><float name="specTrans" value="0.4"/>
+    <float name="specTint" value="0.3"/><float name="sheen" value="0.3"/><float name="sheenTint" value="0.5"/>
+    <float name="flatness" value="0.4"/><float name="clearcoat" value="0.8"/><float name="clearcoatGloss" value="0.1"/>
+    </bsdf></shape>
 )" + lights +
       "</scene>");
 }
@@ -141,6 +149,15 @@ inline std::map<std::string, std::string> galleryLights(const testing::SceneFold
        R"(<emitter type="directional"><vector name="direction" x="0.3" y="-1" z="-0.2"/>
   <rgb name="irradiance" value="2"/></emitter>
 <emitter type="constant"><rgb name="radiance" value="0.5, 0.6, 0.7"/></emitter>)"},
+      {"beam",
+       R"(<emitter type="collimated"><transform name="toWorld">
+  <lookat origin="2, 3.4, 1.5" target="0.75, 0.4, 0.1" up="0, 1, 0"/></transform>
+<rgb name="power" value="5, 6, 7"/></emitter>
+<emitter type="collimated"><transform name="toWorld">
+  <lookat origin="-2, 3, 2" target="-1.9, 0.5, 0.85" up="0, 1, 0"/></transform>
+<rgb name="power" value="9, 8, 7"/></emitter>
+<emitter type="point"><point name="position" x="-1" y="3" z="2"/><rgb name="intensity" value="3, 2, 2"/>
+  </emitter>)"},
       {"sky",
        R"(<emitter type="envmap"><string name="filename" value="sky.exr"/><float name="scale" value="0.5"/>
   </emitter>

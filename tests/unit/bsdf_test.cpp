@@ -25,9 +25,7 @@ TEST(Bsdf, IsReciprocal) {
   for (const BsdfCase& c : glossyCases()) {
     std::visit(
         [&](const auto& b) {
-          using B = std::remove_cvref_t<decltype(b)>;
-          double eta = 1;
-          if constexpr (std::is_same_v<B, RoughDielectric>) eta = b.eta;
+          const double eta = roughIndex(b);
           for (int i = 0; i < 500; ++i) {
             const Vec3<double> wi(randomDirection(random, c.entersBack));
             const Vec3<double> wo(randomDirection(random, c.entersBack));
@@ -137,6 +135,7 @@ TEST(Bsdf, FiniteForAllUnitVectors) {
     }
   cases.push_back({"coating air", coating(1.000277f, diffuse(Rgbf(0.5f)), Rgbf(0.1f))});
   cases.push_back({"phong 1e5", phong(0.1f, 0.9f, 1e5f)});
+  for (const BsdfCase& c : extremePrincipled()) cases.push_back(c);
   cases.push_back({"phong black", phong(0, 0.9f, 10)});
   std::vector<Vec3f> extremes = {{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, -1, 0}, {-1, 0, -0.0f}};
   for (const float z : {1e-6f, 1e-4f, 1e-20f, 1 - 6e-8f})

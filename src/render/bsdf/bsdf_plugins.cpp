@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "render/bsdf/material.h"
+#include "render/bsdf/principled_plugin.h"
 #include "render/bsdf/refractive_index.h"
 #include "render/scene/change_note.h"
 #include "render/scene/properties.h"
@@ -418,6 +419,8 @@ constexpr BsdfPlugin kPlugins[] = {
     {"roughdiffuse", "Rough diffuse reflection [Oren and Nayar 1994]", kRoughDiffuseParameters,
      createRoughDiffuse},
     {"ward", "Anisotropic gloss over a diffuse base [Ward 1992]", kWardParameters, createWard},
+    {"principled", "Burley's BSDF of metals, plastics, glass and cloth, as in Mitsuba 3",
+     kPrincipledParameters, createPrincipled},
     {"null", "Nothing: light goes straight on", {}, nullptr},
     {"coating", "A smooth dielectric layer over the nested BSDF [Weidlich and Wilkie 2007]",
      kCoatingParameters, nullptr, 1, createCoating},

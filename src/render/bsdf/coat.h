@@ -55,7 +55,7 @@ struct CoatedBsdf;  // what is below (bsdf.h)
 // lose, is a cosine lobe there too.
 template <class Interface>
 struct Coat {
-  static constexpr int kLobes = 3;
+  static constexpr int kLobes = 5;
   static constexpr int kSpecular = 0, kFirstBelow = 1;
   Interface interface;
   std::shared_ptr<const CoatedBsdf> below;  // reflects only; its delta lobes are mirrors

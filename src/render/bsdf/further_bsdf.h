@@ -7,6 +7,7 @@
 
 #include "render/bsdf/coat.h"
 #include "render/bsdf/diffuse_transmitter.h"
+#include "render/bsdf/principled.h"
 #include "render/bsdf/rough_diffuse.h"
 #include "render/bsdf/thin_dielectric.h"
 #include "render/bsdf/ward.h"
@@ -15,8 +16,10 @@ namespace h2mc {
 
 // Every member as bsdf.h lists it.
 struct FurtherBsdf {
-  static constexpr int kLobes = 3;
-  std::variant<ThinDielectric, DiffuseTransmitter, RoughDiffuse, Ward, SmoothCoat, RoughCoat> bsdf;
+  static constexpr int kLobes = 5;  // a coat over a Principled
+  std::variant<ThinDielectric, DiffuseTransmitter, RoughDiffuse, Ward, SmoothCoat, RoughCoat,
+               Principled>
+      bsdf;
 
   int lobes() const {
     return std::visit([](const auto& b) { return lobesOf(b); }, bsdf);

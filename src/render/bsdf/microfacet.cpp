@@ -5,6 +5,19 @@
 
 namespace h2mc {
 
+bool invertVisibleGgx(const Vec3<double>& wi, const Vec3<double>& m, double ax, double ay,
+                      Vec2f& u) {
+  if (!(m.z > 0)) return false;
+  const Vec3<double> w = glm::normalize(Vec3<double>(ax * wi.x, ay * wi.y, wi.z));
+  const Vec3<double> i = glm::normalize(Vec3<double>(m.x / ax, m.y / ay, m.z));
+  const double d = dot(w, i);
+  if (!(d > 0)) return false;
+  const Vec3<double> c = 2 * d * i - w;
+  const double down = c.z > 0 ? (c.x * c.x + c.y * c.y) / (1 + c.z) : 1 - c.z;
+  u = {toUnitInterval(down / (1 + w.z)), invertAzimuth(c.x, c.y)};
+  return true;
+}
+
 template <>
 bool Microfacet::invert(const Vec3<double>& wi, const Vec3<double>& m, Vec2f& u) const {
   if (!(m.z > 0)) return false;
@@ -24,14 +37,7 @@ bool Microfacet::invert(const Vec3<double>& wi, const Vec3<double>& m, Vec2f& u)
     u = {toUnitInterval(u0), invertAzimuth(m.x, m.y)};
     return true;
   }
-  const Vec3<double> w = glm::normalize(Vec3<double>(a * wi.x, a * wi.y, wi.z));
-  const Vec3<double> i = glm::normalize(Vec3<double>(m.x / a, m.y / a, m.z));
-  const double d = dot(w, i);
-  if (!(d > 0)) return false;
-  const Vec3<double> c = 2 * d * i - w;
-  const double down = c.z > 0 ? (c.x * c.x + c.y * c.y) / (1 + c.z) : 1 - c.z;
-  u = {toUnitInterval(down / (1 + w.z)), invertAzimuth(c.x, c.y)};
-  return true;
+  return invertVisibleGgx(wi, m, a, a, u);
 }
 
 }  // namespace h2mc

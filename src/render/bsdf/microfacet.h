@@ -33,6 +33,26 @@ struct FacetReflection {
   static FacetReflection none() { return {T(0), T(0), T(0), T(0)}; }
 };
 
+// The normal of a GGX facet with roughnesses ax along x and ay along y, drawn among those that wi sees: wi on the
+// stretched hemisphere, a point of the cap around z that it sees, and the normal halfway between. Unit.
+template <class T, class A>
+Vec3<T> sampleVisibleGgx(const Vec3<T>& wi, const A& ax, const A& ay, const T& u0, const T& u1) {
+  using S = Scalar<T>;
+  const T u = awayFromPole(u0);
+  const Vec3<T> stretched(wi.x * ax, wi.y * ay, wi.z);
+  const T inverse = ad::rsqrt(ad::length2(stretched));
+  const T cosine = stretched.z * inverse;
+  const T one = cosine + S(1);
+  const T down = one * u, up = one * (S(1) - u);  // 1 - c.z of the cap's point c, c.z + cos(wi)
+  const T sine = ad::sqrt(T(down * ad::max(T(S(1) - cosine + up), S(kSmallestCoordinate))));
+  const Vec3<T> c = fromPolar<T>(sine, up, u1);
+  const Vec3<T> h((c.x + stretched.x * inverse) * ax, (c.y + stretched.y * inverse) * ay, c.z);
+  return ad::normalize(h);
+}
+// The coordinates that draw m (of any length, m.z > 0); false if none do.
+bool invertVisibleGgx(const Vec3<double>& wi, const Vec3<double>& m, double ax, double ay,
+                      Vec2f& u);
+
 // A: float, or the derivative type where the roughness comes from a texture.
 template <class A>
 struct Facets {
@@ -99,6 +119,16 @@ struct Facets {
     return maskingOverCos(cosine) * cosine;
   }
 
+  // The same of unit directions w.
+  template <class T>
+  T maskingOverCos(const Vec3<T>& w) const {
+    return maskingOverCos(w.z);
+  }
+  template <class T>
+  T masking(const Vec3<T>& w) const {
+    return masking(w.z);
+  }
+
   template <class T>
   FacetReflection<T> reflect(const Vec3<T>& wi, const Vec3<T>& wo) const {
     using S = Scalar<T>;
@@ -138,17 +168,7 @@ struct Facets {
       const T c = ad::rsqrt(T(tangent * tangent + S(1)));
       return fromPolar<T>(tangent * c, c, u1);
     }
-    // wi on the stretched hemisphere, a point of the cap around z that it sees, and the normal
-    // halfway between.
-    const Vec3<T> stretched(wi.x * a, wi.y * a, wi.z);
-    const T inverse = ad::rsqrt(ad::length2(stretched));
-    const T cosine = stretched.z * inverse;
-    const T one = cosine + S(1);
-    const T down = one * u, up = one * (S(1) - u);  // 1 - c.z of the cap's point c, c.z + cos(wi)
-    const T sine = ad::sqrt(T(down * ad::max(T(S(1) - cosine + up), S(kSmallestCoordinate))));
-    const Vec3<T> c = fromPolar<T>(sine, up, u1);
-    const Vec3<T> h((c.x + stretched.x * inverse) * a, (c.y + stretched.y * inverse) * a, c.z);
-    return ad::normalize(h);
+    return sampleVisibleGgx(wi, a, a, u0, u1);
   }
 
   // The coordinates that draw m (of any length, m.z > 0) when seen from wi; false if none do.

@@ -6,8 +6,7 @@
 #pragma once
 
 #include "render/bsdf/bsdf_types.h"
-#include "render/bsdf/fresnel.h"
-#include "render/bsdf/microfacet.h"
+#include "render/bsdf/facet_interface.h"
 #include "render/texture/texture.h"
 
 namespace h2mc {
@@ -52,19 +51,7 @@ struct RoughDielectric : FacetSurface {
     const bool inside = value(wi.z) < 0;
     const Vec3<T> in = inside ? flipped(wi) : wi;
     const Vec3<T> m = facetDrawn(uv, in, u0, u1);
-    const T c = ad::dot(in, m);
-    if (!(value(c) > 0)) return noDirection<T>();
-    Vec3<T> out;
-    if (lobe == kReflect) {
-      out = m * (c * S(2)) - in;
-      if (!(value(out.z) > 0)) return noDirection<T>();
-    } else {
-      const S inverse = S(1) / relativeIndex<S>(value(wi.z));
-      const T cosFar2 = (c * c - S(1)) * (inverse * inverse) + S(1);
-      if (!(value(cosFar2) > 0)) return noDirection<T>();
-      out = m * (c * inverse - ad::sqrt(cosFar2)) - in * inverse;
-      if (!(value(out.z) < 0)) return noDirection<T>();
-    }
+    const Vec3<T> out = leaveFacet(in, m, lobe == kReflect, relativeIndex<S>(value(wi.z)));
     return inside ? flipped(out) : out;
   }
 
@@ -78,14 +65,9 @@ struct RoughDielectric : FacetSurface {
     if (wi.z == 0 || wo.z == 0 || ((wi.z > 0) == (wo.z > 0)) != (lobe == kReflect)) return false;
     const double side = wi.z < 0 ? -1 : 1;
     const Vec3<double> in(wi.x, wi.y, side * wi.z), out(wo.x, wo.y, side * wo.z);
-    const auto drawing = [&](const Vec3<double>& m) {
-      return withFacets<float>(uv, [&](const Microfacet& f) { return f.invert(in, m, u); });
-    };
-    if (lobe == kReflect) return drawing(in + out);
-    Vec3<double> h = in + out * relativeIndex<double>(wi.z);
-    if (h.z < 0) h = -h;
-    if (!(ad::dot(in, h) > 0 && ad::dot(out, h) < 0)) return false;
-    return drawing(h);
+    Vec3<double> h;
+    if (!facetBetween(in, out, lobe == kReflect, relativeIndex<double>(wi.z), h)) return false;
+    return withFacets<float>(uv, [&](const Microfacet& f) { return f.invert(in, h, u); });
   }
 
   template <class T>
@@ -127,7 +109,12 @@ struct RoughDielectric : FacetSurface {
     const S relative = relativeIndex<S>(ci);
     const Vec3<T> in = ci < 0 ? flipped(wi) : wi, out = ci < 0 ? flipped(wo) : wo;
     if ((ci > 0) != (co > 0))
-      return withFacets<T>(uv, [&](const auto& f) { return transmit(f, in, out, relative); });
+      return transmission(withFacets<T>(uv,
+                                        [&](const auto& f) {
+                                          return transmitFacets(f, in, out, relative,
+                                                                S(transmittanceScale));
+                                        }),
+                          relative);
     const FacetReflection<T> r =
         withFacets<T>(uv, [&](const auto& f) { return f.reflect(in, out); });
     if (!(value(r.pdf) > 0)) return Interaction<T>::none();
@@ -136,41 +123,10 @@ struct RoughDielectric : FacetSurface {
             specularReflectance.get()};
   }
 
-  // in.z > 0 > out.z. With h = in + eta out, parallel to the facet's normal m, the Jacobian's
-  // (in.m + eta out.m)^2 [Walter et al., eq. 17] is |h|^2.
-  template <class T, class A>
-  Interaction<T> transmit(const Facets<A>& surface, const Vec3<T>& in, const Vec3<T>& out,
-                          Scalar<T> relative) const {
-    using S = Scalar<T>;
-    Vec3<T> h = in + out * relative;
-    if (value(h.z) < 0) h = -h;
-    const T h2 = ad::length2(h);
-    if (!(value(h2) > Microfacet::kSmallestHalf2 && value(h.z) > 0)) return Interaction<T>::none();
-    const T inverse = ad::rsqrt(h2);
-    const T ci = ad::dot(in, h) * inverse, co = ad::dot(out, h) * -inverse;
-    if (!(value(ci) > 0 && value(co) > 0)) return Interaction<T>::none();
-    const T d = surface.density(h, h2);
-    if (!(value(d) > 0)) return Interaction<T>::none();
-    const T down = -out.z;
-    const T shared = d * transmitDielectric(ci, co, relative) / h2;
-    const S relative2 = relative * relative;
-    Interaction<T> r;
-    // Radiance is divided by relative^2 as it enters the denser side, which eq. 21 multiplies by.
-    r.weight = surface.masking(down) * (S(transmittanceScale) / relative2);
-    r.importance = relative2;
-    if (surface.distribution == FacetDistribution::kGgx) {
-      const T seen = shared * ci * co;
-      r.pdf = seen * surface.maskingOverCos(in.z) * relative2;
-      r.pdfReverse = seen * surface.maskingOverCos(down);
-    } else {
-      const T tilt = h.z * inverse;
-      const T drawn = shared * tilt;
-      r.weight = r.weight * surface.maskingOverCos(in.z) * ci / tilt;
-      r.pdf = drawn * co * relative2;
-      r.pdfReverse = drawn * ci;
-    }
-    if (value(r.pdf) > 0) r.colour = specularTransmittance.get();
-    return r;
+  template <class T>
+  Interaction<T> transmission(const FacetTransmission<T>& t, Scalar<T> relative) const {
+    if (!(value(t.pdf) > 0)) return Interaction<T>::none();
+    return {t.weight, t.pdf, t.pdfReverse, relative * relative, specularTransmittance.get()};
   }
 };
 

@@ -17,7 +17,7 @@ constexpr const char* kLights[] = {"area",     "point",  "spot", "directional",
 constexpr const char* kBsdfs[] = {
     "diffuse",      "phong",   "roughconductor", "roughdielectric", "conductor",
     "dielectric",   "plastic", "roughplastic",   "thindielectric",  "difftrans",
-    "roughdiffuse", "ward",    "coating",        "roughcoating"};
+    "roughdiffuse", "ward",    "coating",        "roughcoating",    "principled"};
 constexpr std::size_t kFurther = std::variant_size_v<Bsdf> - 1;
 
 static_assert(std::size(kShapes) == std::variant_size_v<decltype(Shape::geometry)>);

@@ -45,7 +45,10 @@ void collectIndices(std::span<const Bsdf> bsdfs, const Material& material,
     const Bsdf& bsdf = bsdfs[at(material.front)];
     if (const auto* rough = std::get_if<RoughDielectric>(&bsdf)) indices.insert(rough->eta);
     const auto* further = std::get_if<FurtherBsdf>(&bsdf);
-    if (further && std::holds_alternative<DiffuseTransmitter>(further->bsdf)) indices.insert(1);
+    if (!further) return;
+    if (std::holds_alternative<DiffuseTransmitter>(further->bsdf)) indices.insert(1);
+    const auto* principled = std::get_if<Principled>(&further->bsdf);
+    if (principled && principled->refracts) indices.insert(principled->eta);
   }
 }
 
@@ -268,8 +271,10 @@ Material makeNested(ReaderContext& context, const XmlElement& element, const Bsd
 
 bool isAnisotropic(const Bsdf& bsdf) {
   const auto* further = std::get_if<FurtherBsdf>(&bsdf);
-  const auto* ward = further ? std::get_if<Ward>(&further->bsdf) : nullptr;
-  return ward && ward->alphaU != ward->alphaV;
+  if (!further) return false;
+  if (const auto* ward = std::get_if<Ward>(&further->bsdf)) return ward->alphaU != ward->alphaV;
+  const auto* principled = std::get_if<Principled>(&further->bsdf);
+  return principled && !principled->isIsotropic;
 }
 
 }  // namespace
