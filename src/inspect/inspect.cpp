@@ -105,14 +105,15 @@ struct PathLengths {
   int usual = 1;  // the shortest that chains see where shorter ones are left to path tracing
 };
 
-PathLengths lengthsOf(const OptionSet& options, const InspectSettings& settings) {
+PathLengths lengthsOf(const Scene& scene, const OptionSet& options,
+                      const InspectSettings& settings) {
   PathLengths lengths{options.integer("minDepth"), maxPathLength(options), 1};
   if (settings.choice == PathChoice::kGiven) {
     lengths.longest = std::max(lengths.longest, settings.given.length());
     lengths.shortest = std::min(lengths.shortest, settings.given.length());
   }
   const bool split = options.integer("directSamples") != 0;
-  lengths.usual = std::max(lengths.shortest, split ? DirectLighting::kLongest + 1 : 1);
+  lengths.usual = std::max(lengths.shortest, split ? DirectLighting::longest(scene) + 1 : 1);
   if (lengths.usual > lengths.longest) lengths.usual = lengths.shortest;
   return lengths;
 }
@@ -155,7 +156,7 @@ void checkPairText(const std::string& text) {
 Inspection inspect(const Scene& scene, const MetropolisMethod& method, const OptionSet& options,
                    const InspectSettings& settings) {
   if (!settings.pair.empty()) checkPairText(settings.pair);
-  const PathLengths lengths = lengthsOf(options, settings);
+  const PathLengths lengths = lengthsOf(scene, options, settings);
   const int maxLength = lengths.longest;
   const ImportanceMap everywhere;
   const SceneTarget target(scene, maxLength, everywhere);

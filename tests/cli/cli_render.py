@@ -62,6 +62,13 @@ class Render(_h2mc.Test):
                 self.assertEqual(statistics["samples"], attributes["samples"])
                 self.assertIsInstance(statistics["statistics"], dict)
 
+    def test_beams(self):
+        """Path tracing says that it misses their light; the others don't."""
+        self.write("scene.xml", _h2mc.SCENE.replace("</scene>", '<emitter type="collimated"/></scene>'))
+        for integrator in ("path", "bdpt", "mmlt"):
+            result = self.render("out.exr", "-i", integrator, self.budget(integrator), "1")
+            self.assertEqual("light of collimated emitters" in result.stderr, integrator == "path", integrator)
+
     def test_formats(self):
         self.render("a.exr", "-i", "path", "--samples-per-pixel", 4, "--png")
         self.render("b.hdr", "-i", "path", "--samples-per-pixel", 4)

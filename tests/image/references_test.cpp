@@ -115,6 +115,15 @@ std::vector<Case> cases() {
                       {{"bootstrapSamples", "15000"}, {"chains", "256"}},
                       "crosscheck2"});
   }
+  // Path tracing finds nothing of a beam.
+  list.push_back({"collimated_ptracer", "bdpt", 16, 3e-3, {}, "crosscheck2"});
+  for (const char* integrator : {"mmlt", "h2mc"})
+    list.push_back({"collimated_ptracer",
+                    integrator,
+                    16,
+                    6e-3,
+                    {{"bootstrapSamples", "30000"}, {"chains", "256"}},
+                    "crosscheck2"});
   // Of the large scenes the mean is known to a tenth of this: docs/measurements.md, against an independent renderer.
   const std::vector<std::pair<std::string, std::string>> chains{{"bootstrapSamples", "50000"},
                                                                 {"chains", "256"}};

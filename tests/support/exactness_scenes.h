@@ -15,8 +15,8 @@ struct ExactnessScene {
   int maxLength;
 };
 
-// A directly seen lamp, a diffuse room, a rough metal sphere and a mirror; no front wall, so that the camera sees what
-// light subpaths reach.
+// A directly seen lamp, a beam, a room of diffuse and lacquered walls, a rough metal sphere and a mirror; no front
+// wall, so that the camera sees what light subpaths reach.
 inline std::string roomScene() {
   return R"(<scene version="0.6.0"><integrator type="path"/>
 <sensor type="perspective"><transform name="toWorld"><lookat origin="0, 1, 4.2" target="0, 0.9, 0" up="0, 1, 0"/>
@@ -24,7 +24,8 @@ inline std::string roomScene() {
   <float name="fov" value="45"/><film type="hdrfilm"><integer name="width" value="16"/>
     <integer name="height" value="12"/></film></sensor>
 <bsdf type="diffuse" id="white"><rgb name="reflectance" value="0.7, 0.7, 0.65"/></bsdf>
-<bsdf type="diffuse" id="red"><rgb name="reflectance" value="0.6, 0.1, 0.1"/></bsdf>
+<bsdf type="principled" id="red"><rgb name="baseColor" value="0.6, 0.1, 0.1"/><float name="roughness" value="0.6"/>
+  <float name="anisotropic" value="0.5"/><float name="clearcoat" value="0.7"/><float name="sheen" value="0.3"/></bsdf>
 <shape type="rectangle"><transform name="toWorld"><rotate x="1" angle="-90"/></transform><ref id="white"/></shape>
 <shape type="rectangle"><transform name="toWorld"><translate y="1" z="-1"/></transform><ref id="white"/></shape>
 <shape type="rectangle"><transform name="toWorld"><rotate y="1" angle="90"/><translate x="-1" y="1"/></transform>
@@ -36,6 +37,8 @@ inline std::string roomScene() {
 <shape type="rectangle"><transform name="toWorld"><scale value="0.35"/><rotate x="1" angle="70"/>
     <translate y="1.7" z="-0.3"/></transform>
   <ref id="white"/><emitter type="area"><rgb name="radiance" value="10, 9, 7"/></emitter></shape>
+<emitter type="collimated"><transform name="toWorld"><lookat origin="0.6, 1.8, 0.9" target="-0.25, 0.5, 0.1"
+  up="0, 1, 0"/></transform><rgb name="power" value="2, 2, 1.5"/></emitter>
 </scene>)";
 }
 

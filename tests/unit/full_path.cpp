@@ -137,8 +137,8 @@ TEST_P(PathSpace, CastEdgesAreThoseThatTracingFinds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Gallery, PathSpace,
-                         ::testing::Values("area", "points", "infinite", "sky", "motion", "lens",
-                                           "parallel"),
+                         ::testing::Values("area", "points", "beam", "infinite", "sky", "motion",
+                                           "lens", "parallel"),
                          nameOf);
 INSTANTIATE_TEST_SUITE_P(SlowScenes, PathSpace, ::testing::ValuesIn(sceneFiles()), nameOf);
 

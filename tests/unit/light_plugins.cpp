@@ -197,6 +197,17 @@ TEST(LightPlugins, Envmap) {
   EXPECT_THROW(make("envmap", {{"filename", file}}), SceneError);
 }
 
+TEST(LightPlugins, Collimated) {
+  const Light light = make("collimated", {{"toWorld", rotationAboutY(90, 1)}, {"power", Rgbf(4)}});
+  const auto& beam = std::get<CollimatedLight>(light);
+  EXPECT_EQ(beam.position, Vec3f(1, 2, 3));
+  EXPECT_LT(glm::distance(beam.direction, Vec3f(1, 0, 0)), 1e-6f);
+  EXPECT_EQ(beam.flux, Rgbf(4));
+  EXPECT_NEAR(beam.power({}), 4, 1e-6);
+  EXPECT_TRUE(isBeam(light));
+  EXPECT_THROW(make("collimated", {{"toWorld", Mat4(0)}}), SceneError);
+}
+
 // Every table says what create() asks for.
 TEST(LightPlugins, TablesAreComplete) {
   // "sky" and "sunsky" make an envmap.

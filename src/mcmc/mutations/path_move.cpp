@@ -57,6 +57,11 @@ Proposal PathMove::finish(ChainState& current, ChainState& proposed, double logM
                           MutationContext& context) {
   const FullPath& to = work_->to;
   const TechniqueDensities& there = work_->there;
+  const PathSpaceState& from = pathSpaceAt(target_.scene(), current, pathSpace_);
+  // What a beam falls on is where it is, exactly: densities by area mean nothing there.
+  if (to.light == from.path.light && isBeam(target_.scene().lights[at(to.light)]) &&
+      to.x[1].point.p != from.path.x[1].point.p)
+    return Proposal::none(Refusal::kStructure);
   if (!(luminance(there.color) > 0)) return Proposal::none(Refusal::kDark);
   const int j = drawTechnique(there, *context.random);
   if (j < 0 || !std::isfinite(logMove)) return Proposal::none(Refusal::kTechnique);
@@ -65,7 +70,7 @@ Proposal PathMove::finish(ChainState& current, ChainState& proposed, double logM
     return Proposal::none(Refusal::kTechnique);
   if (!target_.weigh(proposed.path)) return Proposal::none(Refusal::kDark);
   proposed.derived[assembles_] = {{true}, true};
-  const TechniqueDensities& here = pathSpaceAt(target_.scene(), current, pathSpace_).densities;
+  const TechniqueDensities& here = from.densities;
   const int i = current.path.technique.s;
   return Proposal::withLogRatio(logMove + there.logDensity[at(j)] - here.logDensity[at(i)] +
                                 std::log(here.weight[at(i)] / there.weight[at(j)]));

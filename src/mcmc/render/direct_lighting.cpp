@@ -49,7 +49,7 @@ DirectLighting::DirectLighting(const Scene& scene, const OptionSet& options,
       request_(request),
       wanted_(options.integer("directSamples")),
       minDepth_(options.integer("minDepth")),
-      longest_(std::min(kLongest, maxPathLength(options))),
+      longest_(std::min(longest(scene), maxPathLength(options))),
       step_(measuredRows(scene.film)) {}
 
 SampleTally DirectLighting::tally(const std::array<Half, 2>& halves) {

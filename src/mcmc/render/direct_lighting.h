@@ -28,7 +28,8 @@ struct DirectLightingPart {
 // can use, then, when the chains know their own noise, as much as makes the whole picture's least.
 class DirectLighting {
  public:
-  static constexpr int kLongest = 2;  // in edges, where maxDepth allows
+  // In edges, where maxDepth allows: path tracing does not find what a beam lights.
+  static int longest(const Scene& scene) { return scene.hasBeam() ? 1 : 2; }
 
   // By the options minDepth, maxDepth and directSamples; the request's seed, threads, stop flag and
   // progress, which is called while it renders.

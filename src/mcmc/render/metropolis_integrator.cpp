@@ -49,7 +49,7 @@ class MetropolisRender final : public RenderInProgress {
         mutationsPerPixel_(mutationBudget()),
         directRequest_(directRequest()),
         direct_(scene, options, directRequest_),
-        minLength_(split() ? DirectLighting::kLongest + 1 : options.integer("minDepth")),
+        minLength_(split() ? DirectLighting::longest(scene) + 1 : options.integer("minDepth")),
         maxLength_(maxLength),
         round_(roundOf(options.integer("chains"))) {
     if (request_.watch) direct_.setWatch([this] { look(); });

@@ -2,6 +2,8 @@
 // Path tracing with next-event estimation, weighted by the power heuristic [Veach 1997, ch. 9].
 #include "render/integrator/path_integrator.h"
 
+#include <spdlog/spdlog.h>
+
 #include "render/core/random.h"
 #include "render/integrator/sampling_integrator.h"
 #include "render/path/path.h"
@@ -102,6 +104,10 @@ class PathIntegrator final : public Integrator {
   }
 
   RenderResult render(const Scene& scene, const RenderRequest& request) override {
+    if (scene.hasBeam())
+      spdlog::warn(
+          "path tracing can't find the light of collimated emitters: it is missing; bdpt and all "
+          "integrators with chains have it");
     return renderSamples(scene, request, options_.integer("samplesPerPixel"),
                          [&] { return std::make_unique<PathSampler>(path_); });
   }

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "render/light/area_light.h"
+#include "render/light/collimated_light.h"
 #include "render/light/constant_light.h"
 #include "render/light/directional_light.h"
 #include "render/light/envmap_light.h"
@@ -21,7 +22,7 @@ namespace h2mc {
 
 // What each alternative provides (all const), some of it by way of light_kinds.h:
 //
-//   bool isDelta();      // no path can hit it: point, spot, directional, projector
+//   bool isDelta();      // no path can hit it: point, spot, directional, projector, collimated
 //   bool isInfinite();   // no position: directional, constant, envmap, sun
 //   bool isEnvironment();  // seen by rays that leave the scene: constant, envmap, sun
 //   float power(const SceneBounds&);  // luminance of the flux (an estimate is enough), > 0 if it emits
@@ -57,7 +58,10 @@ namespace h2mc {
 //   unsigned wrapsDirect(const LightContext&);
 //   unsigned wrapsEmission(const LightContext&);
 using Light = std::variant<AreaLight, PointLight, SpotLight, DirectionalLight, ConstantLight,
-                           EnvmapLight, SunLight, ProjectorLight>;
+                           EnvmapLight, SunLight, ProjectorLight, CollimatedLight>;
+
+// Whether its rays are all the same one: what it lights first can't be moved.
+inline bool isBeam(const Light& light) { return std::holds_alternative<CollimatedLight>(light); }
 
 // Whether suns stand before it.
 template <class L>

@@ -55,6 +55,10 @@ constexpr std::array kDirectionalParameters{
               "the way the light goes, instead of toWorld"},
     Parameter{"irradiance", ParameterType::kColor, "1", "on a surface across the direction"},
     kSamplingWeightParameter};
+constexpr std::array kCollimatedParameters{
+    Parameter{"toWorld", ParameterType::kTransform, "", "from the light, whose beam goes along +z"},
+    Parameter{"power", ParameterType::kColor, "1", "flux of the whole beam"},
+    kSamplingWeightParameter};
 constexpr std::array kConstantParameters{
     Parameter{"radiance", ParameterType::kColor, "1", "radiance from every direction"},
     kSamplingWeightParameter};
@@ -161,6 +165,15 @@ Light createDirectional(const Properties& properties) {
   return light;
 }
 
+Light createCollimated(const Properties& properties) {
+  const Mat4 toWorld = properties.transform("toWorld");
+  CollimatedLight light;
+  light.position = Vec3f(toWorld[3]);
+  light.direction = unit(properties, "toWorld", transformVector(toWorld, Vec3f(0, 0, 1)));
+  light.flux = properties.color("power");
+  return light;
+}
+
 Light createConstant(const Properties& properties) {
   return ConstantLight{{}, properties.color("radiance")};
 }
@@ -194,6 +207,8 @@ constexpr std::array kOwnPlugins{
                   kProjectorParameters, createProjector},
     Plugin<Light>{"directional", "parallel light, along +z", kDirectionalParameters,
                   createDirectional},
+    Plugin<Light>{"collimated", "a beam without width, along +z: bdpt and what has chains find it",
+                  kCollimatedParameters, createCollimated},
     Plugin<Light>{"constant", "the same light from every direction", kConstantParameters,
                   createConstant},
     Plugin<Light>{"envmap", "light from infinitely far, from a picture in latitude and longitude",

@@ -183,6 +183,7 @@ bool Assembly::emission() {
   const Light& light = scene_.lights[at(full_.light)];
   if (std::visit([](const auto& l) { return l.isDelta(); }, light))
     (full_.infinite ? v : u) = unused();
+  if (isBeam(light)) v = unused();
   const int offset = path_.technique.lightOffset();
   setCoordinates(offset, u);
   setCoordinates(offset + 2, v);

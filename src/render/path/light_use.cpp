@@ -86,9 +86,8 @@ void pickLightsByUse(Scene& scene) {
   for (double& s : squares) sum += s = std::sqrt(s);
   if (!(sum > 0)) return;
   for (double& s : squares) s /= sum;
-  const LightPicker powers = scene.emissionPicker;
-  scene.directPicker = mixture(squares, powers, kPowerInDirect);
-  scene.emissionPicker = mixture(squares, powers, kPowerInEmission);
+  scene.directPicker = mixture(squares, scene.directPicker, kPowerInDirect);
+  scene.emissionPicker = mixture(squares, scene.emissionPicker, kPowerInEmission);
 }
 
 }  // namespace h2mc

@@ -51,6 +51,13 @@ LightEnd lightEnd(const Scene& scene, const FullPath& path, const Edge& edge) {
       [&](const auto& l) {
         LightEnd end;
         const LightContext context = scene.lightContext();
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(l)>, CollimatedLight>) {
+          end.canBeHit = false;
+          if (!l.reaches(path.x[1].point.p)) return end;
+          end.emitted = l.flux;
+          end.emission = 1;
+          return end;
+        }
         if (l.isDelta()) {
           // Its sample is the same for all coordinates.
           const auto r = l.template sampleDirect<float>(context, {}, path.x[1].point.p, 0.5f, 0.5f);

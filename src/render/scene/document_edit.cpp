@@ -98,6 +98,7 @@ bool scaleColor(const SceneDocument& document, XmlElement& element, const std::s
 std::string colorOf(const std::string& type) {
   if (type == "point" || type == "spot") return "intensity";
   if (type == "directional") return "irradiance";
+  if (type == "collimated") return "power";
   return type == "area" || type == "constant" ? "radiance" : "";
 }
 
@@ -108,7 +109,8 @@ bool hasScale(const std::string& type) {
 
 // Whether it stands at a point, so that what it sends in a direction grows with the world's area.
 bool isAtPoint(const XmlElement& element) {
-  return isEmitter(element) && isOneOf(typeOf(element), {"point", "spot", "projector"});
+  return isEmitter(element) &&
+         isOneOf(typeOf(element), {"point", "spot", "projector", "collimated"});
 }
 
 double scaleOf(const XmlElement& emitter, const char* name) {
@@ -340,7 +342,7 @@ double brightestLight(const SceneDocument& document) {
     if (!isEmitter(element)) return;
     const std::string type = typeOf(element), color = colorOf(type);
     if (!color.empty()) {
-      double& brightest = color == "intensity" ? intensity : radiance;
+      double& brightest = isOneOf(color, {"intensity", "power"}) ? intensity : radiance;
       brightest = std::max(brightest, largestColor(document, element, color));
     } else if (type == "projector") {
       intensity = std::max(intensity, scaleOf(element, "scale"));

@@ -11,8 +11,8 @@ constexpr const char* kShapes[] = {
     "triangle mesh",        "sphere",        "disk",        "cylinder",
     "moving triangle mesh", "moving sphere", "moving disk", "moving cylinder",
     "moving instance",      "instance"};
-constexpr const char* kLights[] = {"area",     "point",  "spot", "directional",
-                                   "constant", "envmap", "sun",  "projector"};
+constexpr const char* kLights[] = {"area",   "point", "spot",      "directional", "constant",
+                                   "envmap", "sun",   "projector", "collimated"};
 // Bsdf's, then those of FurtherBsdf, its last alternative.
 constexpr const char* kBsdfs[] = {
     "diffuse",      "phong",   "roughconductor", "roughdielectric", "conductor",

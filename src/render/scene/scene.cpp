@@ -79,6 +79,8 @@ SceneBounds boundsOf(std::span<const Shape> shapes) {
   return bounds;
 }
 
+bool Scene::hasBeam() const { return std::any_of(lights.begin(), lights.end(), isBeam); }
+
 void Scene::finish() {
   moving = camera.moves() || std::any_of(shapes.begin(), shapes.end(),
                                          [](const Shape& shape) { return shape.moves(); });
@@ -97,11 +99,14 @@ void Scene::finish() {
           },
           lights[at(environment)]);
     }
-  std::vector<double> powers;
-  for (const Light& light : lights)
+  std::vector<double> powers, direct;
+  for (const Light& light : lights) {
     powers.push_back(
         static_cast<double>(std::visit([&](const auto& l) { return l.power(bounds); }, light)));
-  directPicker = emissionPicker = LightPicker(powers);
+    direct.push_back(isBeam(light) ? 0 : powers.back());
+  }
+  directPicker = LightPicker(direct);
+  emissionPicker = LightPicker(powers);
   tracer = std::make_unique<RayTracer>(shapes);
   if (lights.size() > 1) pickLightsByUse(*this);
 }

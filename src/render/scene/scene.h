@@ -74,6 +74,9 @@ struct Scene {
     return environment;
   }
 
+  // Whether a light is a beam, whose light no path has that starts from the camera alone.
+  bool hasBeam() const;
+
   // Computes what follows from the parts: bounds, light probabilities, the tracer. Call once, when
   // shapes, materials and lights are in place. Throws std::runtime_error if Embree fails.
   void finish();
