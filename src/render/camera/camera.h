@@ -27,8 +27,8 @@ class Camera {
   static Camera parallel(const Mat4& toWorld, float halfWidth, float halfHeight);
   bool isParallel() const { return parallel_; }
 
-  // Leaves a window of the film, given by two corners in the coordinates of the whole one: from here on
-  // film coordinates are the window's. Precondition: left < right, top < bottom. Call once.
+  // Leaves a window of the film, or of the plane that it is in, given by two corners in the coordinates of the whole
+  // film: from here on film coordinates are the window's. Precondition: left < right, top < bottom. Call once.
   void crop(double left, double top, double right, double bottom);
 
   // Gives it a thin lens: rays start anywhere on a disk of this radius across the axis, and those through one point of

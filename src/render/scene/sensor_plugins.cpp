@@ -22,8 +22,10 @@ constexpr Parameter kPerspective[] = {
     {"farClip", kNumber, "10000", "farthest distance, up to 1e30"},
     {"shutterOpen", kNumber, "0", "time"},
     {"shutterClose", kNumber, "0", "time"},
-    {"principalPointOffsetX", kNumber, "0", "must be 0"},
-    {"principalPointOffsetY", kNumber, "0", "must be 0"},
+    {"principalPointOffsetX", kNumber, "0",
+     "how far the film looks to the right of the axis, in its widths, -100 to 100"},
+    {"principalPointOffsetY", kNumber, "0",
+     "how far it looks below the axis, in its heights, -100 to 100"},
     ignoredParameter("focusDistance", kNumber)};
 constexpr auto kThinLens = [] {
   constexpr std::size_t kOthers = std::size(kPerspective) - 1;

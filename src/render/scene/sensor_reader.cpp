@@ -193,8 +193,6 @@ Camera perspectiveCamera(const ElementProperties& p, const Motion& motion, float
   } else {
     fov = fovOfFocalLength(p);
   }
-  for (std::string_view name : {"principalPointOffsetX", "principalPointOffsetY"})
-    if (p.number(name) != 0) p.fail(name, "a shifted principal point is not supported");
   for (int i = 0; i < 3; ++i) {
     constexpr double kRounding = 1e-3;  // of matrices written with few digits
     const double scale = glm::length(glm::dvec3(motion.at(0)[i]));
@@ -252,8 +250,15 @@ void readSensor(ReaderContext& context, const XmlElement& element, const ReadOpt
   const Motion motion = p.motion("toWorld");
   scene.camera = entry.name == "orthographic" ? parallelCamera(motion, aspect)
                                               : perspectiveCamera(p, motion, aspect);
-  if (windowX < 1 || windowY < 1)
-    scene.camera.crop(window.left, window.top, window.right, window.bottom);
+  double shiftX = 0, shiftY = 0;
+  if (!scene.camera.isParallel()) {
+    constexpr float kFarthestOff = 100;
+    shiftX = numberIn(p, "principalPointOffsetX", -kFarthestOff, kFarthestOff);
+    shiftY = numberIn(p, "principalPointOffsetY", -kFarthestOff, kFarthestOff);
+  }
+  if (windowX < 1 || windowY < 1 || shiftX != 0 || shiftY != 0)
+    scene.camera.crop(window.left + shiftX, window.top + shiftY, window.right + shiftX,
+                      window.bottom + shiftY);
   scene.camera.follow(motion);
   scene.camera.shutterOpen = shutterOpen;
   scene.camera.shutterClose = shutterClose;
