@@ -191,6 +191,55 @@ TEST(SkyLights, ScalesAndRadius) {
   EXPECT_NEAR(power(narrow) / power(wide), 1, 1e-4);
 }
 
+// Of version 3: z is up, south along x and west along y; the sun's diameter is in degrees; the ground is brighter.
+TEST(SkyLights, SunskyOfVersion3) {
+  const SceneFolder folder;
+  const auto number = [](const std::string& name, const std::string& value) {
+    return "<float name=\"" + name + "\" value=\"" + value + "\"/>";
+  };
+  const auto recent = [&](const std::string& inside) {
+    return folder.read(
+        testing::modern(sceneWith("<emitter type=\"sunsky\">" + inside + "</emitter>")));
+  };
+  const auto old = [&](const std::string& inside) {
+    return folder.read(sceneWith("<emitter type=\"sunsky\">" + inside + "</emitter>"));
+  };
+  // To where the old frame has it: (x, y, z) is (-y, z, x) there.
+  const auto turned = [](const Vec3f& d) { return Vec3f(-d.y, d.z, d.x); };
+  const Scene a = recent("<vector name=\"sun_direction\" x=\"0.36\" y=\"-0.48\" z=\"0.8\"/>" +
+                         number("sun_aperture", "5.358"));
+  const Scene b =
+      old("<vector name=\"sunDirection\" x=\"0.48\" y=\"0.8\" z=\"0.36\"/>"
+          "<rgb name=\"albedo\" value=\"0.3\"/>" +
+          number("sunRadiusScale", "10"));
+  for (const Vec3f& d : {Vec3f(0.36f, -0.48f, 0.8f), Vec3f(0, 0, 1), Vec3f(0.6f, 0, 0.8f),
+                         Vec3f(-0.6f, 0.64f, 0.48f), Vec3f(0, 0.6f, -0.8f)}) {
+    const Rgbf here = fromSky(a, d), there = fromSky(b, turned(d));
+    EXPECT_LT(glm::length(here - there), 2e-3f * glm::length(there) + 1e-9f);
+  }
+  EXPECT_GT(luminance(fromSky(a, Vec3f(0, 0, 1))), 0);
+  EXPECT_EQ(fromSky(a, Vec3f(0, 0, -1)), Rgbf(0));
+  // The other frame must not be taken for it.
+  EXPECT_EQ(fromSky(a, Vec3f(0, -1, -0.1f)), Rgbf(0));
+  // By place and time: in Tokyo, in the afternoon, the sun is in the south-west.
+  const Scene dated = recent(number("hour", "15"));
+  const Vec3f sun = dated.suns.at(0).direction;
+  EXPECT_GT(sun.z, 0.5f);
+  EXPECT_GT(sun.y, 0.3f);
+  EXPECT_LT(glm::distance(turned(sun), old(number("hour", "15")).suns.at(0).direction), 1e-5f);
+  // That the sun is another model's is said.
+  ASSERT_EQ(dated.warnings.size(), 1u);
+  EXPECT_NE(dated.warnings[0].find("Hosek and Wilkie 2013"), std::string::npos);
+  EXPECT_TRUE(recent(number("sun_scale", "0")).warnings.empty());
+  EXPECT_TRUE(old("").warnings.empty());
+  EXPECT_NE(folder
+                .error(testing::modern(sceneWith("<emitter type=\"sunsky\">" +
+                                                 number("sun_aperture", "1") +
+                                                 number("sun_radius_scale", "2") + "</emitter>")))
+                .find("give either sunAperture or sunRadiusScale"),
+            std::string::npos);
+}
+
 TEST(SkyLights, EnvironmentsAreAdded) {
   const SceneFolder folder;
   const std::string constant =

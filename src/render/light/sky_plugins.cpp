@@ -50,8 +50,17 @@ constexpr Parameter kSkyScale{"skyScale", ParameterType::kNumber, "",
 constexpr Parameter kSunRadiusScale{"sunRadiusScale", ParameterType::kNumber, "1",
                                     "factor on the sun's radius, up to 300, which leaves its light "
                                     "as much as it is; below 0.001: all of it from one direction"};
+constexpr Parameter kSunAperture{
+    "sunAperture", ParameterType::kNumber, "",
+    "instead of sunRadiusScale: the sun's apparent diameter, 0.001 to 160 degrees"};
 constexpr Parameter kSkyToWorld{"toWorld", ParameterType::kTransform, "",
                                 "from the sky, where +y is up, to the world"};
+constexpr Parameter kSunskyAlbedo{
+    "albedo", ParameterType::kColor, "0.2",
+    "of the ground, which lights the sky, 0 to 1; from version 2 on 0.3"};
+constexpr Parameter kSunskyToWorld{
+    "toWorld", ParameterType::kTransform, "",
+    "from the sky, where +y is up, to the world; from version 2 on +z is up, +x is south"};
 constexpr Parameter kSunResolution{"resolution", ParameterType::kInteger,
                                    "512",        "of a picture that other renderers make of it",
                                    "",           "",
@@ -78,13 +87,32 @@ constexpr std::array kSunParameters{kTurbidity,
                                     kSkyToWorld,
                                     kSunResolution,
                                     kSamplingWeightParameter};
-constexpr std::array kSunskyParameters{kTurbidity,      kAlbedo,     kSunDirection,
-                                       kYear,           kMonth,      kDay,
-                                       kHour,           kMinute,     kSecond,
-                                       kLatitude,       kLongitude,  kTimezone,
-                                       kStretch,        kExtend,     kResolution,
-                                       kScale,          kSunScale,   kSkyScale,
-                                       kSunRadiusScale, kSkyToWorld, kSamplingWeightParameter};
+constexpr std::array kSunskyParameters{kTurbidity,      kSunskyAlbedo,
+                                       kSunDirection,   kYear,
+                                       kMonth,          kDay,
+                                       kHour,           kMinute,
+                                       kSecond,         kLatitude,
+                                       kLongitude,      kTimezone,
+                                       kStretch,        kExtend,
+                                       kResolution,     kScale,
+                                       kSunScale,       kSkyScale,
+                                       kSunRadiusScale, kSunAperture,
+                                       kSunskyToWorld,  kSamplingWeightParameter};
+
+// Which of the plugins it is: version 3 has "sunsky" alone, with another frame and other defaults.
+enum class Kind { kSingle, kSunsky };
+bool isRecent(const Properties& p, Kind kind) { return kind == Kind::kSunsky && !p.isOldVersion(); }
+
+// To the world from the frame of the model, where +y is up, east is +x and north is -z. In files of version 3 the
+// sky's own has +z up, south along +x and west along +y.
+EnvironmentTransform skyTransform(const Properties& p, Kind kind) {
+  EnvironmentTransform transform = environmentTransform(p);
+  if (!isRecent(p, kind)) return transform;
+  const glm::dmat3 toRecent(0, -1, 0, 0, 0, 1, 1, 0, 0);  // by columns
+  transform.rotation = transform.rotation * toRecent;
+  transform.stretch = glm::transpose(toRecent) * transform.stretch * toRecent;
+  return transform;
+}
 
 // Where the sky's own frame puts the sun: unit, above the horizon.
 glm::dvec3 sunDirection(const Properties& p, const EnvironmentTransform& transform) {
@@ -137,9 +165,9 @@ void requireFinite(const Properties& p, const Rgbf& radiance) {
   if (!ad::isFinite(radiance)) p.fail("scale", "times the model's radiance it is beyond float");
 }
 
-Light makeSky(const Properties& p, float scale) {
-  const EnvironmentTransform transform = environmentTransform(p);
-  const Rgbf albedo = p.color("albedo");
+Light makeSky(const Properties& p, float scale, Kind kind) {
+  const EnvironmentTransform transform = skyTransform(p, kind);
+  const Rgbf albedo = isRecent(p, kind) && !p.given("albedo") ? Rgbf(0.3f) : p.color("albedo");
   if (std::max({albedo.x, albedo.y, albedo.z}) > 1) p.fail("albedo", "expected values from 0 to 1");
   const double stretch = numberIn(p, "stretch", 1, 2);
   const bool extend = p.boolean("extend");
@@ -166,8 +194,22 @@ Light makeSky(const Properties& p, float scale) {
   return EnvmapLight(image, scale, glm::mat3(transform.rotation));
 }
 
-Light makeSun(const Properties& p, float scale) {
-  const EnvironmentTransform transform = environmentTransform(p);
+// Of the sun's radius over what it is.
+double sunRadiusScale(const Properties& p, Kind kind) {
+  constexpr float kLargest = 300, kLargestAperture = 160, kSmallestAperture = 1e-3f;
+  if (kind == Kind::kSingle || !p.given("sunAperture"))
+    return numberIn(p, "sunRadiusScale", 0, kLargest);
+  if (p.given("sunRadiusScale")) p.fail("sunAperture", "give either sunAperture or sunRadiusScale");
+  const double aperture = numberIn(p, "sunAperture", kSmallestAperture, kLargestAperture);
+  return aperture / 2 * (kPiD / 180) / kSunRadius;
+}
+
+Light makeSun(const Properties& p, float scale, Kind kind) {
+  if (isRecent(p, kind) && scale > 0)
+    p.warn("sunScale",
+           "the sun is Preetham et al.'s and not that of Hosek and Wilkie 2013, which "
+           "version 3 has: its brightness and colour are somewhat different");
+  const EnvironmentTransform transform = skyTransform(p, kind);
   const glm::dvec3 sun = sunDirection(p, transform);
   const double zenith = std::acos(std::min(sun.y, 1.0));
   const double azimuth = std::atan2(sun.x, -sun.z);
@@ -176,9 +218,8 @@ Light makeSun(const Properties& p, float scale) {
   const Rgbf radiance = sunRadiance(zenith, numberIn(p, "turbidity", 1, 10)) * scale;
   requireFinite(p, radiance);
   const auto capOf = [](double radius) { return 2 * std::pow(std::sin(radius / 2), 2); };
-  constexpr float kLargest = 300;     // nearly half the sky
   constexpr double kSmallest = 1e-3;  // an arc second: nobody sees that it is a disc
-  const double radiusScale = numberIn(p, "sunRadiusScale", 0, kLargest);
+  const double radiusScale = sunRadiusScale(p, kind);
   const double radius = radiusScale * kSunRadius;
   if (radiusScale < kSmallest) {
     DirectionalLight light;
@@ -193,18 +234,19 @@ Light makeSun(const Properties& p, float scale) {
 
 constexpr std::array kPlugins{
     Plugin<Light>{"sky", "the clear sky's light [Hosek and Wilkie 2012]", kSkyParameters,
-                  [](const Properties& p) { return makeSky(p, scaleOf(p, "")); }},
+                  [](const Properties& p) { return makeSky(p, scaleOf(p, ""), Kind::kSingle); }},
     Plugin<Light>{"sun", "the sun's light through clear air [Preetham et al. 1999]", kSunParameters,
-                  [](const Properties& p) { return makeSun(p, scaleOf(p, "")); }},
-    Plugin<Light>{"sunsky", "sun and sky", kSunskyParameters,
-                  [](const Properties& p) { return makeSky(p, scaleOf(p, "skyScale")); }}};
+                  [](const Properties& p) { return makeSun(p, scaleOf(p, ""), Kind::kSingle); }},
+    Plugin<Light>{"sunsky", "sun and sky", kSunskyParameters, [](const Properties& p) {
+                    return makeSky(p, scaleOf(p, "skyScale"), Kind::kSunsky);
+                  }}};
 
 }  // namespace
 
 std::span<const Plugin<Light>> skyPlugins() { return kPlugins; }
 
 Light sunOfSunsky(const Properties& properties) {
-  return makeSun(properties, scaleOf(properties, "sunScale"));
+  return makeSun(properties, scaleOf(properties, "sunScale"), Kind::kSunsky);
 }
 
 }  // namespace h2mc
