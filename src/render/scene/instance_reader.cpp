@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "render/geometry/placed_mesh.h"
+#include "render/geometry/round_meshes.h"
 #include "render/scene/element_properties.h"
 #include "render/scene/part_readers.h"
 #include "render/scene/value_text.h"
@@ -16,53 +16,37 @@
 namespace h2mc {
 namespace {
 
-// The unit sphere with the texture coordinates of a Sphere.
-TriangleMesh unitSphere(bool inwards) {
-  constexpr unsigned kRings = 128, kSectors = 256;
-  TriangleMesh mesh;
-  for (unsigned i = 0; i <= kRings; ++i)
-    for (unsigned j = 0; j <= kSectors; ++j) {
-      const double theta = std::numbers::pi * i / kRings, phi = 2 * std::numbers::pi * j / kSectors;
-      const glm::dvec3 p(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-                         std::cos(theta));
-      mesh.positions.emplace_back(p);
-      mesh.normals.emplace_back(inwards ? -p : p);
-      mesh.uvs.emplace_back(static_cast<float>(j) / kSectors, static_cast<float>(i) / kRings);
-    }
-  const auto add = [&](unsigned a, unsigned b, unsigned c) {
-    mesh.triangles.push_back(inwards ? glm::uvec3(a, c, b) : glm::uvec3(a, b, c));
-  };
-  for (unsigned i = 0; i < kRings; ++i)
-    for (unsigned j = 0; j < kSectors; ++j) {
-      const unsigned a = i * (kSectors + 1) + j, b = a + kSectors + 1;
-      if (i + 1 < kRings) add(a, b, b + 1);
-      if (i > 0) add(a, b + 1, a + 1);
-    }
-  return mesh;
+// The unit mesh that is stretched to what is no sphere or cylinder any more; one with its normals inwards.
+struct UnitMeshes {
+  std::shared_ptr<const SharedMesh> outwards, inwards;
+
+  explicit UnitMeshes(const MeshData& data)
+      : outwards(shared(data, false)), inwards(shared(data, true)) {}
+  const std::shared_ptr<const SharedMesh>& facing(bool in) const { return in ? inwards : outwards; }
+
+ private:
+  static std::shared_ptr<const SharedMesh> shared(const MeshData& data, bool flip) {
+    MeshOptions options;
+    options.flipNormals = flip;
+    std::size_t dropped = 0;
+    return std::make_shared<const SharedMesh>(finishMesh(data, options, dropped));
+  }
+};
+const UnitMeshes& unitSpheres() {
+  static const UnitMeshes meshes(makeUnitSphere());
+  return meshes;
+}
+const UnitMeshes& unitCylinders() {
+  static const UnitMeshes meshes(makeUnitCylinder());
+  return meshes;
 }
 
-std::shared_ptr<const SharedMesh> sharedUnitSphere(bool inwards) {
-  static const auto outside = std::make_shared<const SharedMesh>(unitSphere(false));
-  static const auto inside = std::make_shared<const SharedMesh>(unitSphere(true));
-  return inwards ? inside : outside;
-}
-
-// The one scale of a transform that scales alike in all directions and does not mirror.
-std::optional<double> similarity(const glm::dmat3& m) {
-  constexpr double kNoise = 1e-4;
-  const double scale = glm::length(m[0]);
-  if (!(glm::determinant(m) > 0)) return std::nullopt;
-  for (int i = 0; i < 3; ++i)
-    if (std::abs(glm::length(m[i]) - scale) > kNoise * scale ||
-        std::abs(glm::dot(m[i], m[(i + 1) % 3])) > kNoise * scale * scale)
-      return std::nullopt;
-  return scale;
-}
+bool mirrors(const glm::dmat3& m) { return !(glm::determinant(m) > 0); }
 
 std::optional<Sphere> placed(const Sphere& sphere, const Placement& placement) {
   const glm::dmat3 m(placement.toWorld());
-  const auto scale = similarity(m);
-  if (!scale) return std::nullopt;
+  const auto scale = uniformScale(m);
+  if (!scale || mirrors(m)) return std::nullopt;
   Sphere result = sphere;
   result.center = Vec3f(placement.point(glm::dvec3(sphere.center)));
   result.radius = static_cast<float>(static_cast<double>(sphere.radius) * *scale);
@@ -82,8 +66,9 @@ std::optional<Disk> placed(const Disk& disk, const Placement& placement) {
 
 std::optional<Cylinder> placed(const Cylinder& cylinder, const Placement& placement) {
   const glm::dmat3 m(placement.toWorld());
-  const auto scale = similarity(m);
-  if (!scale) return std::nullopt;
+  const glm::dvec3 way = glm::dvec3(cylinder.end) - glm::dvec3(cylinder.start);
+  const auto scale = roundScale(m, glm::normalize(way), glm::dvec3(cylinder.axisX));
+  if (!scale || mirrors(m)) return std::nullopt;
   Cylinder result = cylinder;
   result.start = Vec3f(placement.point(glm::dvec3(cylinder.start)));
   result.end = Vec3f(placement.point(glm::dvec3(cylinder.end)));
@@ -111,29 +96,35 @@ Geometry instanceOf(std::shared_ptr<const SharedMesh> shared, std::vector<Placem
 }
 
 // What toWorld makes of a group's shape.
-Geometry placedGeometry(const Shape& shape, const std::vector<Placement>& steps,
-                        const Properties& p) {
+Geometry placedGeometry(const Shape& shape, const std::vector<Placement>& steps) {
   if (const SharedMesh* shared = shape.sharedMesh(); shared)
     return instanceOf(std::get<MeshInstance>(shape.geometry).shared, steps);
   if (const auto* disk = std::get_if<Disk>(&shape.geometry))
     return *placedAtAll<MovingDisk>(*disk, steps);
+  // What the unit mesh becomes, where it is no sphere or cylinder any more.
+  const auto stretched = [&](const UnitMeshes& meshes, bool inwards, const glm::dmat4& toGroup) {
+    std::vector<Placement> ofUnit;
+    ofUnit.reserve(steps.size());
+    for (const Placement& step : steps) ofUnit.emplace_back(Mat4(step.toWorld() * toGroup));
+    return instanceOf(meshes.facing(inwards), std::move(ofUnit));
+  };
   if (const auto* cylinder = std::get_if<Cylinder>(&shape.geometry)) {
     if (auto made = placedAtAll<MovingCylinder>(*cylinder, steps)) return *std::move(made);
-    p.fail(
-        "toWorld",
-        "the transformation makes a cylinder of the group that is not round: only the same scale "
-        "in all directions is supported");
+    const glm::dvec3 start(cylinder->start), way = glm::dvec3(cylinder->end) - start;
+    const glm::dvec3 x = glm::dvec3(cylinder->axisX) * static_cast<double>(cylinder->radius);
+    glm::dmat4 toGroup(1);
+    toGroup[0] = glm::dvec4(x, 0);
+    toGroup[1] = glm::dvec4(glm::cross(glm::normalize(way), x), 0);
+    toGroup[2] = glm::dvec4(way, 0);
+    toGroup[3] = glm::dvec4(start, 1);
+    return stretched(unitCylinders(), cylinder->flipNormals, toGroup);
   }
   const auto& sphere = std::get<Sphere>(shape.geometry);
   if (auto made = placedAtAll<MovingSphere>(sphere, steps)) return *std::move(made);
-  // An ellipsoid.
   glm::dmat4 toGroup(glm::transpose(glm::dmat3(sphere.toLocal)) *
                      static_cast<double>(sphere.radius));
   toGroup[3] = glm::dvec4(glm::dvec3(sphere.center), 1);
-  std::vector<Placement> ofUnit;
-  ofUnit.reserve(steps.size());
-  for (const Placement& step : steps) ofUnit.emplace_back(Mat4(step.toWorld() * toGroup));
-  return instanceOf(sharedUnitSphere(sphere.flipNormals), std::move(ofUnit));
+  return stretched(unitSpheres(), sphere.flipNormals, toGroup);
 }
 
 std::vector<Placement> stepsOf(const Properties& p, const Shape& shape, double& error) {
@@ -222,7 +213,7 @@ void readInstance(ReaderContext& context, const XmlElement& element) {
     Shape copy;
     copy.name = (id.empty() ? "instance" : id) + " of " + shape.name;
     copy.material = shape.material;
-    copy.geometry = placedGeometry(shape, steps, p);
+    copy.geometry = placedGeometry(shape, steps);
     noteMotionError(context, copy.name, error);
     context.scene.shapes.push_back(std::move(copy));
   }

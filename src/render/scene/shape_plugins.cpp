@@ -2,9 +2,11 @@
 #include "render/scene/shape_plugins.h"
 
 #include <cmath>
+#include <optional>
 
-#include "render/geometry/mesh_data.h"
+#include "render/geometry/round_meshes.h"
 #include "render/image/color_encoding.h"
+#include "render/scene/change_note.h"
 
 namespace h2mc {
 namespace {
@@ -53,14 +55,14 @@ constexpr Parameter kDeforming[] = {
 constexpr Parameter kSphereParameters[] = {
     {"center", kPoint, "0, 0, 0", "the middle, in object space"},
     {"radius", kNumber, "1", "in object space"},
-    {"toWorld", kTransform, "", "from object to world space; scales alike in all directions"},
+    {"toWorld", kTransform, "", "from object to world space"},
     kFlipNormals};
 
 constexpr Parameter kCylinderParameters[] = {
     {"p0", kPoint, "0, 0, 0", "the centre of its first end, in object space"},
     {"p1", kPoint, "0, 0, 1", "that of the other end"},
     {"radius", kNumber, "1", "in object space"},
-    {"toWorld", kTransform, "", "from object to world space; scales alike in all directions"},
+    {"toWorld", kTransform, "", "from object to world space"},
     kFlipNormals};
 
 // The transforms at a motion's steps, for what lies in the box [low, high].
@@ -150,26 +152,34 @@ ShapeGeometry createRectangle(const Properties& p) {
 
 ShapeGeometry createCube(const Properties& p) { return finished(p, makeCube(), MeshOptions()); }
 
-// The one scale of a transform's linear part; fails where there are several. `made`: what it would make.
-double uniformScale(const Properties& p, const glm::dmat3& linear, const std::string& made) {
-  const double scale = glm::length(linear[0]);
-  for (int i = 0; i < 3; ++i) {
-    const double length = glm::length(linear[i]);
-    const double skew = glm::dot(linear[i], linear[(i + 1) % 3]);
-    if (std::fabs(length - scale) > 1e-4 * scale || std::fabs(skew) > 1e-4 * scale * scale)
-      p.fail("toWorld", "the transformation makes " + made +
-                            ": only the same scale in all directions is supported");
-  }
-  return scale;
-}
-
-Sphere makeSphere(const Properties& p, const Mat4& matrix) {
-  const glm::dmat4 toWorld(matrix);
-  const glm::dmat3 linear(toWorld);
-  const double scale = uniformScale(p, linear, "an ellipsoid of the sphere");
+// The radius, times the transform's scale.
+double radiusOf(const Properties& p, double scale) {
   const double radius = static_cast<double>(p.number("radius")) * scale;
   if (!(radius > 0) || !std::isfinite(static_cast<float>(radius)))
-    p.fail("radius", "the radius of a sphere must be positive");
+    p.fail("radius", "the radius must be positive");
+  return radius;
+}
+
+// The unit mesh as `toObject` has it, for what is no sphere or cylinder in the world.
+ShapeGeometry stretchedMesh(const Properties& p, MeshData mesh, const glm::dmat4& toObject,
+                            const char* what) {
+  const glm::dmat3 normals = normalTransform(Mat4(toObject));
+  for (Vec3f& v : mesh.positions) v = Vec3f(glm::dvec3(toObject * glm::dvec4(glm::dvec3(v), 1)));
+  for (Vec3f& n : mesh.normals) n = Vec3f(glm::normalize(normals * glm::dvec3(n)));
+  noteChange(p, "toWorld", what,
+             "a mesh of " + std::to_string(mesh.triangles.size()) + " triangles");
+  MeshOptions options;
+  options.rewindMirrored = true;
+  return finished(p, std::move(mesh), options);
+}
+
+// None where the transform makes an ellipsoid of it.
+std::optional<Sphere> makeSphere(const Properties& p, const Mat4& matrix) {
+  const glm::dmat4 toWorld(matrix);
+  const glm::dmat3 linear(toWorld);
+  const auto uniform = uniformScale(linear);
+  if (!uniform) return std::nullopt;
+  const double scale = *uniform, radius = radiusOf(p, scale);
   Sphere sphere;
   sphere.center = Vec3f(glm::dvec3(toWorld * glm::dvec4(glm::dvec3(p.vector("center")), 1)));
   sphere.radius = static_cast<float>(radius);
@@ -178,16 +188,36 @@ Sphere makeSphere(const Properties& p, const Mat4& matrix) {
   return sphere;
 }
 
-ShapeGeometry createSphere(const Properties& p) {
-  const Motion motion = p.motion("toWorld");
-  if (!motion.moves()) return {makeSphere(p, Mat4(motion.at(0)))};
+// At rest or at the steps of its motion, within a box in object space; none where `make` has none of one.
+template <class Moving, class Make>
+std::optional<ShapeGeometry> atAllSteps(const Motion& motion, const glm::dvec3& low,
+                                        const glm::dvec3& high, Make&& make) {
   ShapeGeometry result;
-  const glm::dvec3 center(p.vector("center")), radius(static_cast<double>(p.number("radius")));
-  MovingSphere moving;
-  for (const Mat4& m : motionSteps(motion, center - radius, center + radius, result.motionError))
-    moving.steps.push_back(makeSphere(p, m));
+  if (!motion.moves()) {
+    auto still = make(Mat4(motion.at(0)));
+    if (!still) return std::nullopt;
+    result.geometry = *std::move(still);
+    return result;
+  }
+  Moving moving;
+  for (const Mat4& m : motionSteps(motion, low, high, result.motionError)) {
+    auto step = make(m);
+    if (!step) return std::nullopt;
+    moving.steps.push_back(*std::move(step));
+  }
   result.geometry = std::move(moving);
   return result;
+}
+
+ShapeGeometry createSphere(const Properties& p) {
+  const glm::dvec3 center(p.vector("center")), radius(static_cast<double>(p.number("radius")));
+  const auto make = [&](const Mat4& m) { return makeSphere(p, m); };
+  if (auto made =
+          atAllSteps<MovingSphere>(p.motion("toWorld"), center - radius, center + radius, make))
+    return *std::move(made);
+  glm::dmat4 toObject(radiusOf(p, 1));
+  toObject[3] = glm::dvec4(center, 1);
+  return stretchedMesh(p, makeUnitSphere(), toObject, "an ellipsoid");
 }
 
 Disk makeDisk(const Properties& p, const Mat4& toWorld) {
@@ -219,37 +249,53 @@ glm::dvec3 azimuthOrigin(const glm::dvec3& a) {
   return glm::cross(t, a);
 }
 
-Cylinder makeCylinder(const Properties& p, const Mat4& matrix) {
+// From the end p0 to p1, in object space.
+struct CylinderAxis {
+  glm::dvec3 start, way;
+  double length;
+  glm::dvec3 unit, across;
+};
+CylinderAxis axisOf(const Properties& p) {
+  CylinderAxis axis;
+  axis.start = glm::dvec3(p.vector("p0"));
+  axis.way = glm::dvec3(p.vector("p1")) - axis.start;
+  axis.length = std::sqrt(glm::dot(axis.way, axis.way));
+  if (!(axis.length > 0)) p.fail("p1", "the ends of a cylinder must not be one point");
+  axis.unit = axis.way / axis.length;
+  axis.across = azimuthOrigin(axis.unit);
+  return axis;
+}
+
+// None where the transform makes something else of it.
+std::optional<Cylinder> makeCylinder(const Properties& p, const CylinderAxis& axis,
+                                     const Mat4& matrix) {
   const glm::dmat4 toWorld(matrix);
   const glm::dmat3 linear(toWorld);
-  const double scale = uniformScale(p, linear, "a cylinder that is not round");
-  const double radius = static_cast<double>(p.number("radius")) * scale;
-  if (!(radius > 0) || !std::isfinite(static_cast<float>(radius)))
-    p.fail("radius", "the radius of a cylinder must be positive");
-  const glm::dvec3 start(p.vector("p0")), way = glm::dvec3(p.vector("p1")) - start;
-  const double length = std::sqrt(glm::dot(way, way));
-  if (!(length > 0)) p.fail("p1", "the ends of a cylinder must not be one point");
+  const auto scale = roundScale(linear, axis.unit, axis.across);
+  if (!scale) return std::nullopt;
   Cylinder c;
-  c.start = Vec3f(glm::dvec3(toWorld * glm::dvec4(start, 1)));
-  c.end = Vec3f(glm::dvec3(toWorld * glm::dvec4(start + way, 1)));
-  c.radius = static_cast<float>(radius);
-  c.axisX = Vec3f(linear * azimuthOrigin(way / length) / scale);
+  c.start = Vec3f(glm::dvec3(toWorld * glm::dvec4(axis.start, 1)));
+  c.end = Vec3f(glm::dvec3(toWorld * glm::dvec4(axis.start + axis.way, 1)));
+  c.radius = static_cast<float>(radiusOf(p, *scale));
+  c.axisX = Vec3f(linear * axis.across / *scale);
   c.flipNormals = p.boolean("flipNormals");
   return c;
 }
 
 ShapeGeometry createCylinder(const Properties& p) {
-  const Motion motion = p.motion("toWorld");
-  if (!motion.moves()) return {makeCylinder(p, Mat4(motion.at(0)))};
-  ShapeGeometry result;
-  const glm::dvec3 a(p.vector("p0")), b(p.vector("p1"));
-  const glm::dvec3 radius(static_cast<double>(p.number("radius")));
-  MovingCylinder moving;
-  for (const Mat4& m :
-       motionSteps(motion, glm::min(a, b) - radius, glm::max(a, b) + radius, result.motionError))
-    moving.steps.push_back(makeCylinder(p, m));
-  result.geometry = std::move(moving);
-  return result;
+  const CylinderAxis axis = axisOf(p);
+  const glm::dvec3 end = axis.start + axis.way, radius(radiusOf(p, 1));
+  const auto make = [&](const Mat4& m) { return makeCylinder(p, axis, m); };
+  if (auto made =
+          atAllSteps<MovingCylinder>(p.motion("toWorld"), glm::min(axis.start, end) - radius,
+                                     glm::max(axis.start, end) + radius, make))
+    return *std::move(made);
+  glm::dmat4 toObject(1);
+  toObject[0] = glm::dvec4(axis.across * radius.x, 0);
+  toObject[1] = glm::dvec4(glm::cross(axis.unit, axis.across) * radius.x, 0);
+  toObject[2] = glm::dvec4(axis.way, 0);
+  toObject[3] = glm::dvec4(axis.start, 1);
+  return stretchedMesh(p, makeUnitCylinder(), toObject, "an oval or slanting cylinder");
 }
 
 }  // namespace
