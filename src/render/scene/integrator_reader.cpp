@@ -26,7 +26,11 @@ constexpr Foreign kForeign[] = {
     {"volpath", "path", kNoMedia},
     {"volpath_simple", "path", kNoMedia},
     {"volpathmis", "path", kNoMedia},
+    {"direct_projective", "path", ""},  // with kDirectDepth
     {"prb", "path", ""},
+    {"prb_basic", "path", ""},
+    {"prb_projective", "path", ""},
+    {"prbvolpath", "path", kNoMedia},
     {"guided_path", "path", kNearest},
     {"guidedpath", "path", kNearest},
     {"ptracer", "bdpt", kNearest},
@@ -282,7 +286,8 @@ void readIntegrator(ReaderContext& context, const XmlElement& element,
             suggestion(type, names));
   }
   readForeignParameters(context, *inner, type);
-  if (type == "direct") setOption(context, "maxDepth", kDirectDepth, inner->place("type"));
+  if (isOneOf(type, {"direct", "direct_projective"}))
+    setOption(context, "maxDepth", kDirectDepth, inner->place("type"));
   readHidden(context, *inner);
 }
 
