@@ -20,7 +20,7 @@ inline constexpr Parameter kPrincipledParameters[] = {
     {"roughness", ParameterType::kTexture, "0.5",
      "of facets and base, 0 to 1: root of the facets' root mean square slope"},
     {"anisotropic", ParameterType::kTexture, "0",
-     "how much smoother the facets are along u than across, 0 to 1"},
+     "how much rougher the facets are along u than across, 0 to 1"},
     {"metallic", ParameterType::kTexture, "0", "share of the metal, 0 to 1"},
     {"specTrans", ParameterType::kTexture, "0",
      "share of what lets light through in the rest, 0 to 1"},
