@@ -85,6 +85,8 @@ TEST_P(MethodMixture, KeepsTheTargetSlow) {
   options.set("largeStep", large);
   KernelMixture kernels = makeKernels(method, world.target, world.techniques, options, 1);
   kernels.meanTarget = ExactStarts(world.target, 1, 5).meanTarget();
+  // As if there were others beside them: what samples take of each path is more.
+  if (large == "bidirectional") kernels.baseSamples = 0.2;
   learnLeaps(kernels);
   ExactnessPlan plan;
   plan.verdicts = kVerdicts;
@@ -159,9 +161,9 @@ class Mistaken final : public Mutation {
       : inner_(std::move(inner)), mistake_(mistake) {}
   std::string_view name() const override { return inner_->name(); }
   bool applies(const Path& path) const override { return inner_->applies(path); }
-  void splatProposal(const ChainState& proposed, double weight, double shared,
-                     SummedFilm& film) const override {
-    inner_->splatProposal(proposed, weight, shared, film);
+  void splatProposal(const ChainState& proposed, double weight, const Division& division,
+                     StateFilm& film) const override {
+    inner_->splatProposal(proposed, weight, division, film);
   }
   Proposal propose(ChainState& current, ChainState& proposed, MutationContext& context) override {
     // Steps that can't be taken back are taken: only every second half octave of the target is ever left.

@@ -32,11 +32,11 @@ void makePart(ChainFilms& films, Random& random, int mutations, int largeSteps, 
     float x;
     do x = random.uniform();
     while (target(x) < 16.4 * random.uniformDouble());
-    films.states.splatState(x, 0.5f, grey(radiance(x)), 1, target(x), share);
+    films.states.splat(x, 0.5f, grey(radiance(x)), 1, target(x), {share});
   }
   for (int i = 0; i < largeSteps; ++i) {
     const float x = random.uniform();
-    films.samples.splat(x, 0.5f, grey(radiance(x) * share / (target(x) + share)));
+    films.samples.splat(x, 0.5f, grey(radiance(x)), target(x), {share});
   }
 }
 
@@ -114,8 +114,8 @@ TEST(ImageEstimate, ManyMutationsStayAccurate) {
   for (int round = 0; round < kRounds; ++round) {
     ChainFilms films;
     for (int i = 0; i < kMutations; ++i)
-      films.states.splatState((static_cast<float>(i % kPixels) + 0.5f) / kPixels, 0.5f, Rgbf(0.1f),
-                              1, 0.1, 0.033);
+      films.states.splat((static_cast<float>(i % kPixels) + 0.5f) / kPixels, 0.5f, Rgbf(0.1f), 1,
+                         0.1, {0.033});
     estimate.sort(films);
     const ImageEstimate::Part part{&films, 0, kMutations, 0};
     estimate.add({&part, 1});

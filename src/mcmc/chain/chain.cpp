@@ -39,9 +39,9 @@ void Chain::archive(Archive& archive) {
   if (archive.reading()) current_->forget();
 }
 
-void Chain::flush(const KernelMixture& kernels, SummedFilm& film) {
+void Chain::flush(const KernelMixture& kernels, StateFilm& film) {
   const Path& path = current_->path;
-  if (weight_ > 0) Mutation::splatPath(path, weight_, kernels.shared(path.technique), film);
+  if (weight_ > 0) Mutation::splatPath(path, weight_, kernels.division(path.technique), film);
   weight_ = 0;
 }
 
@@ -97,10 +97,10 @@ void Chain::propose(const KernelMixture::Choice& choice, KernelMixture& kernels,
     const double estimate = kernels.large->lastEstimate();
     statistics.largeSteps.add(estimate);
     if (estimate > 0 && kernels.meanTarget)
-      kernels.large->splatSample(*proposed_, kernels.share(), films.samples);
+      kernels.large->splatSample(*proposed_, kernels.division(), films.samples);
   }
   if (!(acceptance > 0)) return;
-  mutation.splatProposal(*proposed_, acceptance, kernels.shared(proposed_->path.technique),
+  mutation.splatProposal(*proposed_, acceptance, kernels.division(proposed_->path.technique),
                          films.states);
   if (random_.uniform() < acceptance) {
     flush(kernels, films.states);

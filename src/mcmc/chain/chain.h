@@ -19,7 +19,7 @@ class Chain {
             MutationContext& context);
 
   // Splats what has gathered on the present state.
-  void flush(const KernelMixture& kernels, SummedFilm& film);
+  void flush(const KernelMixture& kernels, StateFilm& film);
 
   // Goes on from a path of another chain, with all that is known of it: traced anew, a path that a lens
   // perturbation has joined might, by rounding, miss its mark. Preconditions: flushed, a target that is

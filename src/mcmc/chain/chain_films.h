@@ -2,21 +2,22 @@
 // What a group of chains leaves for the picture.
 #pragma once
 
+#include "mcmc/chain/division.h"
 #include "render/integrator/splat_list.h"
 
 namespace h2mc {
 
-// Splats of a group's chains for a film that groups share.
-struct SummedFilm {
+// Splats of a group's states, for a film that groups share.
+struct StateFilm {
   SplatList splats;
-  // Of states: the sum of weight * luminance(contribution) / target.
+  // The sum of weight * luminance(contribution) / target.
   double overTarget = 0;
 
-  void splat(float filmX, float filmY, const Rgbf& value) { splats.splat(filmX, filmY, value); }
-  // A state, or a part of one: its contribution over its target and `shared` (see KernelMixture).
-  void splatState(float filmX, float filmY, const Rgbf& contribution, double weight, double target,
-                  double shared) {
-    splat(filmX, filmY, contribution * static_cast<float>(weight / (target + shared)));
+  // A state, or a part of one.
+  void splat(float filmX, float filmY, const Rgbf& contribution, double weight, double target,
+             const Division& division) {
+    splats.splat(filmX, filmY,
+                 contribution * static_cast<float>(weight / division.ofState(target)));
     overTarget += weight * luminance(contribution) / target;
   }
   void clear() {
@@ -25,10 +26,24 @@ struct SummedFilm {
   }
 };
 
-// `states` for n mutations is to be divided by n and multiplied by the target's mean, `samples` (of large
-// steps) to be divided by the number of large steps.
+// Of its independent samples.
+struct SampleFilm {
+  SplatList splats;
+
+  // A path of a sample that covers all techniques with density 1, or that of one technique with `density`.
+  void splat(float filmX, float filmY, const Rgbf& contribution, double target,
+             const Division& division, double density = 1) {
+    splats.splat(filmX, filmY,
+                 contribution * static_cast<float>(division.ofSample(target) / density));
+  }
+  void clear() { splats.clear(); }
+};
+
+// `states` for n mutations is to be divided by n and multiplied by the target's mean, `samples` to be divided by their
+// number.
 struct ChainFilms {
-  SummedFilm states, samples;
+  StateFilm states;
+  SampleFilm samples;
   void clear() {
     states.clear();
     samples.clear();

@@ -106,7 +106,7 @@ void KernelMixture::learn(const ChainStatistics& statistics) {
 }
 
 void KernelMixture::archive(Archive& archive) {
-  archive(meanTarget, learned_);
+  archive(meanTarget, baseSamples, learned_);
   for (int kind = 0; kind < kinds(); ++kind) mutation(at(kind)).archive(archive);
 }
 

@@ -29,16 +29,23 @@ struct KernelMixture {
   };
   std::vector<Small> small;
   // Mean of the target over all techniques' spaces, or an estimate made before the chains have run; none where large
-  // steps are proposals and nothing else. Otherwise they also count as independent samples of the image, weighted
-  // against the chains' states by the balance heuristic [Kelemen et al. 2002, section 3.4]: in n mutations there are
-  // n * largeProbability * density of these where there are n * target / meanTarget of those. With share =
-  // largeProbability * meanTarget, a state's contribution is then divided by target + share * density, and a sample's
-  // multiplied by share / (target + share * density), whatever the true mean is.
+  // steps are proposals and nothing else. Otherwise they count as independent samples of the image as well.
   std::optional<double> meanTarget;
+  // Bidirectional samples beside the chains, for each mutation; only beside large steps that cover all techniques.
+  double baseSamples = 0;
+  // So many mutations count as much as one of them: successive states are alike.
+  static constexpr double kMutationsASample = 2;
 
-  double share() const { return largeProbability * meanTarget.value_or(0); }
-  double shared(const Technique& technique) const {
-    return meanTarget ? share() * large->density(technique) : 0;
+  // For samples of density 1. In n mutations there are n * largeProbability * density samples by large steps and
+  // n * baseSamples others, where there are n * target / meanTarget states.
+  Division division() const {
+    return {(largeProbability + kMutationsASample * baseSamples) * meanTarget.value_or(0)};
+  }
+  // For a technique's states.
+  Division division(const Technique& technique) const {
+    Division result = division();
+    if (meanTarget) result.level *= large->density(technique);
+    return result;
   }
   // Kinds of mutation: 0 is the large step, k the small one k - 1.
   int kinds() const { return 1 + static_cast<int>(small.size()); }

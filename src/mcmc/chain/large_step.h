@@ -13,9 +13,10 @@ class LargeStep : public Mutation {
   double lastEstimate() const { return lastEstimate_; }
   // With which density proposals cover the primary space of a technique.
   virtual double density(const Technique& technique) const = 0;
-  // Adds the last proposal to a film, a sample by itself, with `share` / (target + share * density) as weight of each
-  // path: see KernelMixture::meanTarget.
-  virtual void splatSample(const ChainState& proposed, double share, SummedFilm& film) const = 0;
+  // Adds the last proposal to a film, a sample by itself. `division` gives the one for a density of 1: that of a
+  // technique has `density` times its level.
+  virtual void splatSample(const ChainState& proposed, const Division& division,
+                           SampleFilm& film) const = 0;
 
  protected:
   double lastEstimate_ = 0;

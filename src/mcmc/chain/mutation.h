@@ -137,16 +137,16 @@ class Mutation {
   // What learn() has set, so that a render can be gone on with.
   virtual void archive(Archive&) {}
 
-  // Adds the last proposal to a film, with the probability of its acceptance as weight: the path's contribution over
-  // its target and `shared` (see KernelMixture). A mutation that knows what else it might as well have proposed adds
-  // the average of that.
-  virtual void splatProposal(const ChainState& proposed, double weight, double shared,
-                             SummedFilm& film) const {
-    splatPath(proposed.path, weight, shared, film);
+  // Adds the last proposal to a film, with the probability of its acceptance as weight. A mutation that knows what else
+  // it might as well have proposed adds the average of that.
+  virtual void splatProposal(const ChainState& proposed, double weight, const Division& division,
+                             StateFilm& film) const {
+    splatPath(proposed.path, weight, division, film);
   }
 
-  static void splatPath(const Path& path, double weight, double shared, SummedFilm& film) {
-    film.splatState(path.filmX, path.filmY, path.contribution, weight, path.target, shared);
+  static void splatPath(const Path& path, double weight, const Division& division,
+                        StateFilm& film) {
+    film.splat(path.filmX, path.filmY, path.contribution, weight, path.target, division);
   }
 };
 

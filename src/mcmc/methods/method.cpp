@@ -19,6 +19,10 @@ std::span<const Parameter> sharedParameters() {
       {"bootstrapSamples", ParameterType::kInteger, "0",
        "bidirectional samples that place the chains and give the first estimate of the brightness; "
        "0: 100000, more in a long render and fewer in one of some seconds"},
+      {"baseSamples", ParameterType::kNumber, "-1",
+       "bidirectional samples for each mutation, to which chains leave what samples are good at; "
+       "0: chains do all, -1: "
+       "what makes the picture least noisy, none beside multiplexed large steps"},
       {"largeStepProbability", ParameterType::kNumber, "0.2", "share of large steps"},
       {"largeStep", ParameterType::kString, "bidirectional",
        "what a large step proposes: a connection of a whole bidirectional sample, or one technique",
@@ -35,6 +39,10 @@ void checkOptions(const MetropolisMethod& method, const OptionSet& options) {
     requireRange(options, name, 1, kNoLimit);
   requireRange(options, "bootstrapSamples", 0, kNoLimit);
   requireRange(options, "directSamples", -1, kNoLimit);
+  requireRange(options, "baseSamples", -1, 1000);
+  if (options.string("largeStep") != "bidirectional" && options.number("baseSamples") > 0)
+    throw OptionError("expected baseSamples=0 with largeStep=" + options.string("largeStep") +
+                      ": base samples stand beside bidirectional large steps");
   requireRange(options, "largeStepProbability", 0, 1);
   for (const MetropolisMethod::Step& step : method.steps(options))
     if (const auto check = mutationNamed(step.mutation).check) check(options);

@@ -19,6 +19,7 @@ std::span<const Preset> presets() {
                                      {"importanceMap", "false"},
                                      {"directSamples", "16"}};
   static constexpr Option kMlt[] = {{"largeStepProbability", "0"},
+                                    {"baseSamples", "0"},
                                     {"roughnessThreshold", "0"},
                                     {"importanceMap", "false"},
                                     {"directSamples", "0"}};

@@ -58,16 +58,18 @@ Proposal BidirectionalLargeStep::propose(ChainState& current, ChainState& propos
   return Proposal::accepted();
 }
 
-void BidirectionalLargeStep::splatProposal(const ChainState&, double weight, double shared,
-                                           SummedFilm& film) const {
+void BidirectionalLargeStep::splatProposal(const ChainState&, double weight,
+                                           const Division& division, StateFilm& film) const {
   // target / sum is the probability of having picked this one.
   for (const auto& [c, target] : connections_)
-    film.splatState(c.filmX, c.filmY, c.contribution, weight * target / sum_, target, shared);
+    if (target > 0)
+      film.splat(c.filmX, c.filmY, c.contribution, weight * target / sum_, target, division);
 }
 
-void BidirectionalLargeStep::splatSample(const ChainState&, double share, SummedFilm& film) const {
+void BidirectionalLargeStep::splatSample(const ChainState&, const Division& division,
+                                         SampleFilm& film) const {
   for (const auto& [c, target] : connections_)
-    film.splat(c.filmX, c.filmY, c.contribution * static_cast<float>(share / (target + share)));
+    film.splat(c.filmX, c.filmY, c.contribution, target, division);
 }
 
 LargeStepPlugin bidirectionalLargeStep() {

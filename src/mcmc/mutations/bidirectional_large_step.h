@@ -27,10 +27,11 @@ class BidirectionalLargeStep final : public LargeStep {
         whole_(slots.add<double>()) {}
   Proposal propose(ChainState& current, ChainState& proposed, MutationContext& context) override;
   // All connections: the acceptance does not depend on which was picked.
-  void splatProposal(const ChainState& proposed, double weight, double shared,
-                     SummedFilm& film) const override;
+  void splatProposal(const ChainState& proposed, double weight, const Division& division,
+                     StateFilm& film) const override;
   double density(const Technique&) const override { return 1; }
-  void splatSample(const ChainState& proposed, double share, SummedFilm& film) const override;
+  void splatSample(const ChainState& proposed, const Division& division,
+                   SampleFilm& film) const override;
 
  private:
   // W of the bidirectional sample around a state.

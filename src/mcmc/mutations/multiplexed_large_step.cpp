@@ -23,12 +23,12 @@ Proposal MultiplexedLargeStep::propose(ChainState& current, ChainState& proposed
       std::log(techniques_.probability(current.path.technique) / techniques_.probability(index)));
 }
 
-void MultiplexedLargeStep::splatSample(const ChainState& proposed, double share,
-                                       SummedFilm& film) const {
+void MultiplexedLargeStep::splatSample(const ChainState& proposed, const Division& division,
+                                       SampleFilm& film) const {
   const Path& path = proposed.path;
-  const double shared = share * techniques_.probability(path.technique);
-  film.splat(path.filmX, path.filmY,
-             path.contribution * static_cast<float>(share / (path.target + shared)));
+  const double density = techniques_.probability(path.technique);
+  film.splat(path.filmX, path.filmY, path.contribution, path.target, {division.level * density},
+             density);
 }
 
 LargeStepPlugin multiplexedLargeStep() {

@@ -16,7 +16,8 @@ class MultiplexedLargeStep final : public LargeStep {
   double density(const Technique& technique) const override {
     return techniques_.probability(technique);
   }
-  void splatSample(const ChainState& proposed, double share, SummedFilm& film) const override;
+  void splatSample(const ChainState& proposed, const Division& division,
+                   SampleFilm& film) const override;
 
  private:
   const Target& target_;

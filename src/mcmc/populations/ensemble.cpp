@@ -16,6 +16,15 @@ constexpr std::uint64_t kChainStream = 0x636861696e, kResampleStream = 0x7265736
 constexpr double kFirstEpoch = 4;
 // So many mutations make a cell of the importance map.
 constexpr double kMutationsPerCell = 256;
+// Base samples for each mutation before their noise is known, and what one of them costs, in mutations: 1 to 1.4 on the
+// project's scenes. No clock is asked, so that the picture does not depend on it.
+constexpr double kFirstBase = 0.3, kBaseCost = 1.2;
+
+double baseSamplesAtFirst(const OptionSet& options) {
+  const double wanted = options.number("baseSamples");
+  if (options.string("largeStep") != "bidirectional") return 0;
+  return wanted >= 0 ? wanted : kFirstBase;
+}
 
 }  // namespace
 
@@ -32,7 +41,8 @@ ChainEnsemble::ChainEnsemble(const Scene& scene, const MetropolisMethod& method,
       luminance_(bootstrap),
       population_(method.population()),
       chains_(at(std::max(options.integer("chains"), 1))),
-      image_(scene.film, request.threads) {
+      image_(scene.film, request.threads),
+      learnsBase_(baseSamplesAtFirst(options) > 0 && options.number("baseSamples") < 0) {
   const std::vector<double> weights = bootstrap.techniqueLuminance();
   techniques_.setWeights(weights, std::vector<bool>(weights.size(), true));
   if (options.string("largeStep") != "bidirectional")
@@ -43,8 +53,13 @@ ChainEnsemble::ChainEnsemble(const Scene& scene, const MetropolisMethod& method,
   for (std::size_t g = 0; g < groups; ++g) {
     KernelMixture kernels = makeKernels(method, target_, techniques_, options, minLength);
     kernels.meanTarget = bootstrap.luminance().mean();
+    kernels.baseSamples = baseSamplesAtFirst(options);
     const int kinds = kernels.kinds();
-    groups_.push_back({{}, std::move(kernels), ChainStatistics(kinds, maxLength), {}});
+    Group& group = groups_.emplace_back(
+        Group{{}, std::move(kernels), ChainStatistics(kinds, maxLength), {}, {}});
+    if (group.kernels.baseSamples > 0)
+      group.base = std::make_unique<BaseSamples>(target_, minLength, seed_, static_cast<int>(g),
+                                                 static_cast<int>(groups));
   }
   const Members members = population_->start(bootstrap, chains_.size(), maxLength, seed_, threads_);
   parallelFor(threads_, chains(), [&](int c) {
@@ -79,6 +94,10 @@ void ChainEnsemble::run(int index, long long steps) {
       chain.step(group.kernels, group.films, group.statistics, group.context);
     chain.flush(group.kernels, group.films.states);
   }
+  if (group.base)
+    group.base->extendTo(group.kernels.baseSamples,
+                         group.statistics.mutations - group.mutationsOfPast,
+                         group.kernels.division(), group.films.samples, group.context.notFinite);
   image_.sort(group.films);
 }
 
@@ -86,11 +105,11 @@ void ChainEnsemble::endRound() {
   std::vector<ImageEstimate::Part> parts;
   for (Group& group : groups_) {
     const long long mutations = group.statistics.mutations;
-    const long long largeSteps = group.statistics.largeSteps.count;
+    const long long samples = group.samples().count;
     parts.push_back({&group.films, group.half, mutations - group.mutationsBefore,
-                     largeSteps - group.largeStepsBefore});
+                     samples - group.samplesBefore});
     group.mutationsBefore = mutations;
-    group.largeStepsBefore = largeSteps;
+    group.samplesBefore = samples;
   }
   image_.add(parts);
 }
@@ -133,18 +152,47 @@ ImportanceMap ChainEnsemble::nextMap(double luminance, const Image* direct) cons
   return ImportanceMap(picture, sampled, cell());
 }
 
+double ChainEnsemble::mutationCost() const {
+  return 1 + kBaseCost * groups_[0].kernels.baseSamples;
+}
+
+Moments ChainEnsemble::baseSamples() const {
+  Moments all;
+  for (const Group& group : groups_)
+    if (group.base) all.add(group.base->luminance());
+  return all;
+}
+
+Moments ChainEnsemble::samples() const {
+  Moments all;
+  for (const Group& group : groups_) all.add(group.samples());
+  return all;
+}
+
+void ChainEnsemble::measure(const std::vector<double>& weights) {
+  stateNoise_ = varianceOfOneSample(image_.stateHalves(luminance().mean), weights);
+  sampleNoise_ = varianceOfOneSample(image_.sampleHalves(), weights);
+  if (!learnsBase_) return;
+  // Large steps are samples too.
+  const double samples = samplesAMutation(sampleNoise_, kBaseCost, stateNoise_, 1);
+  for (Group& group : groups_)
+    group.kernels.baseSamples = std::max(0., samples - group.kernels.largeProbability);
+}
+
 void ChainEnsemble::nextEpoch(const Image* direct) {
   ++epoch_;
 
   const ChainStatistics total = statistics();
-  const double luminance = luminance_.with(total.largeSteps).mean;
-  const ImportanceMap next = useMap_ ? nextMap(luminance, direct) : importance_;
+  const double mean = luminance().mean;
+  const ImportanceMap next = useMap_ ? nextMap(mean, direct) : importance_;
   const Members members = renewed(next);
   importance_ = next;
   formGroups(members.half);
   parallelFor(threads_, groups(), [&](int g) {
     Group& group = groups_[at(g)];
-    group.kernels.meanTarget = luminance;
+    group.kernels.meanTarget = mean;
+    group.mutationsOfPast = group.statistics.mutations;
+    if (group.base) group.base->restart();
     group.kernels.learn(total);
     for (std::size_t c = group.begin; c < group.end; ++c) chains_[c]->restart(members.states[c]);
   });
@@ -167,17 +215,19 @@ Members ChainEnsemble::renewed(const ImportanceMap& next) const {
 }
 
 void ChainEnsemble::archive(Archive& archive) {
-  archive(importance_, half_, epoch_, image_);
+  archive(importance_, half_, epoch_, image_, stateNoise_, sampleNoise_);
   for (const auto& chain : chains_) archive(*chain);
-  for (Group& group : groups_)
+  for (Group& group : groups_) {
     archive(group.kernels, group.statistics, group.context.derivatives, group.context.notFinite,
-            group.mutationsBefore, group.largeStepsBefore);
+            group.mutationsBefore, group.samplesBefore, group.mutationsOfPast);
+    if (group.base) archive(*group.base);
+  }
   if (archive.reading()) formGroups(half_);
 }
 
 RenderResult ChainEnsemble::result() const {
   const ChainStatistics total = statistics();
-  const auto [mean, error] = luminance_.with(total.largeSteps);
+  const auto [mean, error] = luminance();
   long long neverMoved = 0;
   for (const auto& chain : chains_) neverMoved += !chain->moved();
 
@@ -193,6 +243,18 @@ RenderResult ChainEnsemble::result() const {
   result.statistics["epochs"] = epoch_ + 1;
   result.statistics["bootstrap"] = luminance_.bootstrapJson();
   result.statistics["large steps"] = luminance_.largeStepsJson(total.largeSteps);
+  if (groups_[0].base) {
+    const Moments base = baseSamples();
+    result.statistics["base samples"] = {
+        {"samples", base.count},
+        {"samples per pixel", perPixel(static_cast<double>(base.count))},
+        {"samples a mutation", groups_[0].kernels.baseSamples},
+        {"mean luminance", base.mean()},
+        {"standard error", base.standardError()}};
+  }
+  result.statistics["noise"] = {
+      {"states", stateNoise_ / mutationsPerPixel()},
+      {"samples", sampleNoise_ / perPixel(static_cast<double>(samples().count))}};
   return result;
 }
 

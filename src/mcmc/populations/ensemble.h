@@ -4,6 +4,7 @@
 
 #include "mcmc/chain/chain.h"
 #include "mcmc/methods/method.h"
+#include "mcmc/populations/base_samples.h"
 #include "mcmc/populations/bootstrap.h"
 #include "mcmc/populations/image_estimate.h"
 #include "mcmc/populations/luminance_estimate.h"
@@ -42,6 +43,11 @@ class ChainEnsemble {
 
   // The present epoch's picture by either half of the chains, in the measured rows and in the scene's units.
   TwoEstimates halves() const { return image_.halves(luminance().mean); }
+  // Learns, for the next epoch, how many base samples there should be, from the noise of this one's states and samples,
+  // unless the options say. Of the measured rows' pixels, `weights` are those of varianceOfOneSample().
+  void measure(const std::vector<double>& weights);
+  // What a mutation costs from now on, the base samples beside it included, over what it costs by itself.
+  double mutationCost() const;
   double mutationsPerPixel() const;
   // Edge of the square cells, in pixels, for which the picture so far is known well enough.
   int cell() const;
@@ -60,16 +66,28 @@ class ChainEnsemble {
     KernelMixture kernels;
     ChainStatistics statistics;
     MutationContext context;
-    std::size_t begin = 0, end = 0;  // of its chains
+    std::unique_ptr<BaseSamples> base;  // null: none
+    std::size_t begin = 0, end = 0;     // of its chains
     int half = 0;
-    long long mutationsBefore = 0, largeStepsBefore = 0;  // the present round
+    long long mutationsBefore = 0, samplesBefore = 0;  // the present round
+    long long mutationsOfPast = 0;                     // epochs
+
+    // Large steps included.
+    Moments samples() const {
+      Moments all = statistics.largeSteps;
+      if (base) all.add(base->luminance());
+      return all;
+    }
   };
 
   // Deals the chains out to the groups, each of which has chains of one half.
   void formGroups(std::size_t half);
   ChainStatistics statistics() const;
   double perPixel(double mutations) const;
-  LuminanceEstimate::Value luminance() const { return luminance_.with(statistics().largeSteps); }
+  LuminanceEstimate::Value luminance() const { return luminance_.with(samples()); }
+  // Of all groups, in their order.
+  Moments samples() const;
+  Moments baseSamples() const;
   // By the picture of all past epochs, and what the chains leave out.
   ImportanceMap nextMap(double luminance, const Image* direct) const;
   // States for the chains to go on from under the next map.
@@ -89,6 +107,8 @@ class ChainEnsemble {
   std::vector<Group> groups_;
   ImageEstimate image_;
   int epoch_ = 0;
+  bool learnsBase_;
+  double stateNoise_ = 0, sampleNoise_ = 0;  // of one mutation or sample a pixel, as measured
 };
 
 }  // namespace h2mc

@@ -39,7 +39,7 @@ void ImageEstimate::add(std::span<const Part> parts) {
     samples.push_back({&part.films->samples.splats, part.half});
     for (Sums* sums : {&stretch_, &epoch_[at(part.half)]}) {
       sums->mutations += static_cast<double>(part.mutations);
-      sums->largeSteps += static_cast<double>(part.largeSteps);
+      sums->samples += static_cast<double>(part.samples);
       sums->overTarget += part.films->states.overTarget;
     }
   }
@@ -71,19 +71,14 @@ void ImageEstimate::forEachRow(const std::function<void(int, std::size_t)>& work
   parallelFor(threads_, settings_.height, [&](int y) { work(y, at(y) * at(settings_.width)); });
 }
 
-ImageEstimate::Scales ImageEstimate::scales(const Sums& sums) {
-  return {sums.mutations / sums.overTarget,
-          sums.largeSteps > 0 ? sums.mutations / sums.largeSteps : 0};
-}
-
 void ImageEstimate::endStretch() {
-  if (stretch_.overTarget > 0) {
-    const Scales by = scales(stretch_);
+  if (stretch_.mutations > 0) {
+    const double ofStates = stretch_.ofStates(), ofSamples = stretch_.ofSamples();
     forEachRow([&](int y, std::size_t i) {
       for (int x = 0; x < settings_.width; ++x, ++i) {
         // Pages that stay zero are not written to.
-        const Rgbf states = statesFilm_.pixel(x, y, by.states);
-        const Rgbf samples = samplesFilm_.pixel(x, y, by.samples);
+        const Rgbf states = statesFilm_.pixel(x, y, ofStates);
+        const Rgbf samples = samplesFilm_.pixel(x, y, ofSamples);
         if (states != Rgbf(0)) states_[i] += states;
         if (samples != Rgbf(0)) samples_[i] += samples;
       }
@@ -99,17 +94,17 @@ void ImageEstimate::archive(Archive& archive) {
 
 Image ImageEstimate::image(double luminance) const {
   Image image(settings_.width, settings_.height);
-  const bool more = stretch_.overTarget > 0;
-  const double mutations = mutations_ + (more ? stretch_.mutations : 0);
+  const bool more = stretch_.mutations > 0;
+  const double mutations = mutations_ + stretch_.mutations;
   if (!(mutations > 0)) return image;
-  const Scales by = more ? scales(stretch_) : Scales{0, 0};
+  const double ofStates = stretch_.ofStates(), ofSamples = stretch_.ofSamples();
   const auto l = static_cast<float>(luminance), scale = static_cast<float>(1 / mutations);
   forEachRow([&](int y, std::size_t i) {
     for (int x = 0; x < settings_.width; ++x, ++i) {
       Rgbf states = states_[i], samples = samples_[i];
       if (more) {
-        states += statesFilm_.pixel(x, y, by.states);
-        samples += samplesFilm_.pixel(x, y, by.samples);
+        states += statesFilm_.pixel(x, y, ofStates);
+        samples += samplesFilm_.pixel(x, y, ofSamples);
       }
       image.pixels[i] = (states * l + samples) * scale;
     }
@@ -117,19 +112,41 @@ Image ImageEstimate::image(double luminance) const {
   return image;
 }
 
-TwoEstimates ImageEstimate::halves(double luminance) const {
+TwoEstimates ImageEstimate::stateHalves(double luminance) const {
   TwoEstimates result;
   const auto half = [&](int h, Image& image, double& mutationsAPixel) {
     const Sums& sums = epoch_[at(h)];
     if (!(sums.overTarget > 0)) return;
-    const Scales by = scales(sums);
-    image = statesFilm_.developHalf(h, luminance * by.states / sums.mutations);
-    const Image samples = samplesFilm_.developHalf(h, by.samples / sums.mutations);
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] += samples.pixels[i];
+    image = statesFilm_.developHalf(h, luminance * sums.ofStates() / sums.mutations);
     mutationsAPixel = sums.mutations / pixels();
   };
   half(0, result.a, result.samplesA);
   half(1, result.b, result.samplesB);
+  return result;
+}
+
+TwoEstimates ImageEstimate::sampleHalves() const {
+  TwoEstimates result;
+  const auto half = [&](int h, Image& image, double& samplesAPixel) {
+    const Sums& sums = epoch_[at(h)];
+    if (!(sums.samples > 0)) return;
+    image = samplesFilm_.developHalf(h, 1 / sums.samples);
+    samplesAPixel = sums.samples / pixels();
+  };
+  half(0, result.a, result.samplesA);
+  half(1, result.b, result.samplesB);
+  return result;
+}
+
+TwoEstimates ImageEstimate::halves(double luminance) const {
+  TwoEstimates result = stateHalves(luminance);
+  const TwoEstimates samples = sampleHalves();
+  const auto add = [](Image& image, const Image& more) {
+    if (image.pixels.empty()) return;
+    for (std::size_t i = 0; i < more.pixels.size(); ++i) image.pixels[i] += more.pixels[i];
+  };
+  add(result.a, samples.a);
+  add(result.b, samples.b);
   return result;
 }
 

@@ -12,20 +12,20 @@
 
 namespace h2mc {
 
-// The image as an estimate from the chains' states and from the samples of their large steps, over stretches of
-// mutations with one target each. A stretch ends with its epoch or, so that floats do to add up in, after a
-// thousand mutations a pixel.
+// The image as an estimate from the chains' states and from independent samples (large steps, base samples), over
+// stretches of mutations with one target each. A stretch ends with its epoch or, so that floats do to add up in, after
+// a thousand mutations a pixel.
 //
-// With target f of mean b over the primary spaces, contribution C with filter h, share s = p_large * (a guess of
-// b), and large steps' density p, a pixel is the sum of two integrals that weigh every path by the balance heuristic,
+// With target f of mean b over the primary spaces, contribution C with filter h, the samples' density p and a
+// Division's level s, a pixel is the sum of
 //
 //     I = integral of h C f / (f + s p)  +  integral of h C s p / (f + s p).
 //
 // The states of n mutations, distributed as f / b, estimate the first by b / n times the sum of h C / (f + s p); the
-// N large steps estimate the second by 1 / N times the sum of h C s / (f + s p). As for b: the luminance of all paths
+// N samples estimate the second by 1 / N times the sum of h C s / (f + s p). As for b: the luminance of all paths
 // is L = integral of luminance(C) = b E[luminance(C) / f] over the states, so that b = L / m, m being the states' mean
-// of luminance(C) / f and L known from the bootstrap and all large steps. m is 1 without an importance map. Nothing is
-// subtracted: where C and h are not negative no pixel is.
+// of luminance(C) / f and L known from the bootstrap and all samples. m is 1 without an importance map.
+// Nothing is subtracted: where C and h are not negative no pixel is.
 //
 // Memory: 48 bytes a pixel, 24 of them only between begin() and end(), and up to 9 MB.
 class ImageEstimate {
@@ -37,7 +37,7 @@ class ImageEstimate {
   struct Part {
     ChainFilms* films;
     int half;  // 0 or 1
-    long long mutations, largeSteps;
+    long long mutations, samples;
   };
   // To be called by each group when it has made its part, before all of them are added.
   void sort(ChainFilms& films) const;
@@ -55,17 +55,19 @@ class ImageEstimate {
   Image image(double luminance) const;
   // The present epoch's picture by either half, in the measured rows.
   TwoEstimates halves(double luminance) const;
+  // What of it is by states, and what by samples, as numbers of which these are counted.
+  TwoEstimates stateHalves(double luminance) const;
+  TwoEstimates sampleHalves() const;
 
  private:
   struct Sums {
-    double mutations = 0, largeSteps = 0;
+    double mutations = 0, samples = 0;
     double overTarget = 0;
+    // By what the sums of either film are to be multiplied to be `mutations` times what they estimate, the states' for
+    // a mean luminance of 1.
+    double ofStates() const { return overTarget > 0 ? mutations / overTarget : 0; }
+    double ofSamples() const { return samples > 0 ? mutations / samples : 0; }
   };
-  // By what a film's sums are to be multiplied to add to states_ and samples_.
-  struct Scales {
-    double states, samples;
-  };
-  static Scales scales(const Sums& sums);
   void endStretch();
   double pixels() const;
 

@@ -17,8 +17,6 @@ namespace {
 // so many.
 constexpr double kLeastOfTime = 0.1;
 constexpr long long kMutationsASample = 4, kMostAtFirst = 256;
-// The most, whatever the chains seem to need: what they have not found yet makes no noise.
-constexpr double kMostOfTime = 0.8;
 // Of a mutation, in samples, where the clock must not matter: 1.5 to 4 on the project's scenes.
 constexpr double kMutationCost = 2;
 
@@ -34,14 +32,6 @@ void mix(Image& image, int width, int height, int threads, double n0, double n,
 }
 
 }  // namespace
-
-double samplesAMutation(double perSample, double sampleCost, double perMutation,
-                        double mutationCost) {
-  const double most = kMostOfTime / (1 - kMostOfTime) * mutationCost / sampleCost;
-  if (!(perSample > 0)) return 0;
-  if (!(perMutation > 0)) return most;
-  return std::min(most, std::sqrt(perSample / perMutation * mutationCost / sampleCost));
-}
 
 DirectLighting::DirectLighting(const Scene& scene, const OptionSet& options,
                                const RenderRequest& request)
@@ -192,12 +182,23 @@ void DirectLighting::extendTo(double renderSeconds, long long mutationsPerPixel)
   add(seconds, samples);
 }
 
-void DirectLighting::measure(const TwoEstimates& chains, int cell) {
-  const TwoEstimates own{sums_.halves[0].rows, sums_.halves[1].rows,
-                         perPixel(sums_.halves[0].tally), perPixel(sums_.halves[1].tally)};
-  const std::vector<double> weights =
-      relativeWeights(own.mean(), chains.mean(), cell, std::max(1, cell / step_));
-  perSample_ = varianceOfOneSample(own, weights);
+TwoEstimates DirectLighting::ownRows() const {
+  return {sums_.halves[0].rows, sums_.halves[1].rows, perPixel(sums_.halves[0].tally),
+          perPixel(sums_.halves[1].tally)};
+}
+
+std::vector<double> DirectLighting::weights(const Image& chains, int cell) const {
+  const Image own = wanted() ? ownRows().mean() : Image(chains.width, chains.height);
+  return relativeWeights(own, chains, cell, std::max(1, cell / step_));
+}
+
+double DirectLighting::noise() const {
+  const double had = perPixel(tally());
+  return had > 0 ? perSample_ / had : 0;
+}
+
+void DirectLighting::measure(const TwoEstimates& chains, const std::vector<double>& weights) {
+  perSample_ = varianceOfOneSample(ownRows(), weights);
   perMutation_ = varianceOfOneSample(chains, weights);
 }
 
@@ -205,7 +206,7 @@ void DirectLighting::balance(const Standing& now) {
   if (wanted_ > 0 || interrupted_) return;
   const double had = perPixel(tally());
   const bool timed = now.endSeconds > 0;
-  double sampleCost = 1, mutationCost = kMutationCost;
+  double sampleCost = 1, mutationCost = kMutationCost * now.mutationCost;
   if (timed) {
     sampleCost = seconds_ / had;
     mutationCost = now.chainSeconds / now.mutations;
@@ -237,6 +238,7 @@ void DirectLighting::addTo(RenderResult& result) const {
   result.interrupted |= interrupted_;
   result.statistics["direct lighting"] =
       sampleStatistics(scene_, all, seconds_ + (part_ ? part_->allSeconds : 0));
+  result.statistics["noise"]["direct lighting"] = noise();
 }
 
 }  // namespace h2mc

@@ -54,14 +54,20 @@ class DirectLighting {
   // gets. Both may only grow from call to call.
   void extendTo(double renderSeconds, long long mutationsPerPixel);
 
-  // Measures its noise and that of the chains, whose picture, in the measured rows and in the scene's units, is
-  // known by cells of cell x cell pixels, both relative to the whole picture.
-  void measure(const TwoEstimates& chains, int cell);
+  // Of the measured rows, what makes errors relative to the whole picture: relativeWeights of its own and of the
+  // chains' picture, which is in the scene's units and known by cells of cell x cell pixels.
+  std::vector<double> weights(const Image& chains, int cell) const;
+  // Measures its noise and that of the chains, with these weights.
+  void measure(const TwoEstimates& chains, const std::vector<double>& weights);
+  // What measure() has found of its own, for the samples that there are: a share of relMSE; 0 before.
+  double noise() const;
   // Where a render stands.
   struct Standing {
     double mutations = 0;     // a pixel, so far
     double chainSeconds = 0;  // of them
-    double seconds = 0;       // of everything
+    double mutationCost =
+        1;  // of one with what is beside it, where the clock must not matter, over one alone
+    double seconds = 0;     // of everything
     double endSeconds = 0;  // of the render, or of its part up to the next mark; 0: by endMutations
     double endMutations = 0;  // a pixel
     double growth = 1;        // there will be another call before so many times the mutations
@@ -97,6 +103,8 @@ class DirectLighting {
   // More samples, half of them in each half: until there are so many a pixel, and so many seconds are over; 0:
   // the other is the only limit.
   void add(double seconds, long long samples);
+  // Its picture by either half, in the measured rows.
+  TwoEstimates ownRows() const;
   std::unique_ptr<SampledFilm> makeFilm() const;
   void addHalf(Part& part);
   // The sums, with the part's samples.
@@ -119,10 +127,5 @@ class DirectLighting {
   std::function<void()> watch_;
   RenderClock* partClock_ = nullptr;  // of the samples that are being made
 };
-
-// The number of samples for each mutation that makes perSample / samples + perMutation / mutations
-// least at a given cost of both, costs in the same unit; samples get no more than four fifths of it.
-double samplesAMutation(double perSample, double sampleCost, double perMutation,
-                        double mutationCost);
 
 }  // namespace h2mc

@@ -188,6 +188,7 @@ void MetropolisRender::extendDirect(std::size_t mark) {
 void MetropolisRender::balanceDirect(const ChainEnsemble& chains) {
   DirectLighting::Standing now;
   now.mutations = chains.mutationsPerPixel();
+  now.mutationCost = chains.mutationCost();
   now.seconds = clock_.wallSeconds();
   now.chainSeconds = now.seconds - chainsBegan_ - (direct_.seconds() - directBefore_);
   if (nextMark_ < request_.marks.size())
@@ -202,7 +203,10 @@ void MetropolisRender::balanceDirect(const ChainEnsemble& chains) {
 
 // Direct lighting has its film while the chains have none.
 void MetropolisRender::endEpoch(ChainEnsemble& chains) {
-  if (split()) direct_.measure(chains.halves(), chains.cell());
+  const TwoEstimates picture = chains.halves();
+  const std::vector<double> weights = direct_.weights(picture.mean(), chains.cell());
+  if (split()) direct_.measure(picture, weights);
+  chains.measure(weights);
   chains.endEpoch();
   stage_ = Stage::kBetweenEpochs;
   if (split()) balanceDirect(chains);

@@ -2,12 +2,15 @@
 #include "mcmc/render/noise.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace h2mc {
 namespace {
 
 constexpr double kFloor = 0.1;
 constexpr long long kMostPixels = 1 << 18;
+// Of the cost that samples get, whatever the chains seem to need: what they have not found yet makes no noise.
+constexpr double kMostOfCost = 0.9;
 
 }  // namespace
 
@@ -63,6 +66,14 @@ double varianceOfOneSample(const TwoEstimates& estimates, const std::vector<doub
     sum += weights[i] * squared(static_cast<double>(luminance(a.pixels[i] - b.pixels[i])));
   return sum / static_cast<double>(weights.size()) /
          (1 / estimates.samplesA + 1 / estimates.samplesB);
+}
+
+double samplesAMutation(double perSample, double sampleCost, double perMutation,
+                        double mutationCost) {
+  const double most = kMostOfCost / (1 - kMostOfCost) * mutationCost / sampleCost;
+  if (!(perSample > 0)) return 0;
+  if (!(perMutation > 0)) return most;
+  return std::min(most, std::sqrt(perSample / perMutation * mutationCost / sampleCost));
 }
 
 }  // namespace h2mc

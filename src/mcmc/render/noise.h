@@ -34,4 +34,9 @@ std::vector<double> relativeWeights(const Image& sharp, const Image& noisy, int 
 // 0 without two estimates.
 double varianceOfOneSample(const TwoEstimates& estimates, const std::vector<double>& weights);
 
+// The number of samples for each mutation that makes perSample / samples + perMutation / mutations
+// least at a given cost of both, costs in the same unit; samples get no more than nine tenths of it.
+double samplesAMutation(double perSample, double sampleCost, double perMutation,
+                        double mutationCost);
+
 }  // namespace h2mc

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "mcmc/populations/base_samples.h"
+
+#include <cmath>
+
+#include "render/core/archive.h"
+#include "render/core/unit_interval.h"
+
+namespace h2mc {
+namespace {
+
+constexpr std::uint64_t kSampleStream = 0x62617365, kShiftStream = 0x73686966;
+
+}  // namespace
+
+BaseSamples::BaseSamples(const PathTarget& target, int minLength, std::uint64_t seed, int group,
+                         int groups)
+    : target_(target),
+      minLength_(minLength),
+      seed_(seed),
+      group_(static_cast<std::uint64_t>(group)),
+      groups_(static_cast<std::uint64_t>(groups)),
+      sampler_(target.maxLength()) {
+  Random random(seed, kShiftStream, 0);
+  shift_ = {random.uniform(), random.uniform()};
+}
+
+void BaseSamples::add(const Division& division, SampleFilm& film, NotFiniteCounts& notFinite) {
+  const std::uint64_t n = static_cast<std::uint64_t>(luminance_.count) * groups_ + group_;
+  Random random(seed_, kSampleStream, n);
+  const UnitSquarePoint point = sobolPoint(n);
+  double luminances = 0;
+  const int wrong =
+      sampler_.sample(target_.scene(), random, wrap(point.x + shift_.x), wrap(point.y + shift_.y),
+                      minLength_, [&](const BidirectionalSampler::Connection& c) {
+                        film.splat(c.filmX, c.filmY, c.contribution, target_.of(c), division);
+                        luminances += h2mc::luminance(c.contribution);
+                      });
+  luminance_.add(luminances);
+  ++sinceRestart_;
+  if (wrong > 0)
+    notFinite.add(sampler_.lastNotFinite(), sampler_.primarySample(sampler_.lastNotFinite()),
+                  wrong);
+}
+
+void BaseSamples::extendTo(double samplesAMutation, long long mutations, const Division& division,
+                           SampleFilm& film, NotFiniteCounts& notFinite) {
+  const long long wanted = std::llround(samplesAMutation * static_cast<double>(mutations));
+  while (sinceRestart_ < wanted) add(division, film, notFinite);
+}
+
+}  // namespace h2mc
