@@ -41,7 +41,10 @@ void Chain::archive(Archive& archive) {
 
 void Chain::flush(const KernelMixture& kernels, StateFilm& film) {
   const Path& path = current_->path;
-  if (weight_ > 0) Mutation::splatPath(path, weight_, kernels.division(path.technique), film);
+  if (weight_ > 0) {
+    Mutation::splatPath(path, weight_, kernels.division(path.technique), film);
+    film.land(path.filmX, path.filmY, weight_);
+  }
   weight_ = 0;
 }
 
@@ -102,6 +105,7 @@ void Chain::propose(const KernelMixture::Choice& choice, KernelMixture& kernels,
   if (!(acceptance > 0)) return;
   mutation.splatProposal(*proposed_, acceptance, kernels.division(proposed_->path.technique),
                          films.states);
+  films.states.land(proposed_->path.filmX, proposed_->path.filmY, acceptance);
   if (random_.uniform() < acceptance) {
     flush(kernels, films.states);
     std::swap(current_, proposed_);

@@ -12,7 +12,13 @@ struct StateFilm {
   SplatList splats;
   // The sum of weight * luminance(contribution) / target.
   double overTarget = 0;
+  // Where mutations have landed, each with its share, in the first channel: where that is asked for.
+  bool counting = false;
+  SplatList landed;
 
+  void land(float filmX, float filmY, double weight) {
+    if (counting) landed.splat(filmX, filmY, {static_cast<float>(weight), 0, 0});
+  }
   // A state, or a part of one.
   void splat(float filmX, float filmY, const Rgbf& contribution, double weight, double target,
              const Division& division) {
@@ -22,6 +28,7 @@ struct StateFilm {
   }
   void clear() {
     splats.clear();
+    landed.clear();
     overTarget = 0;
   }
 };

@@ -41,7 +41,8 @@ ChainEnsemble::ChainEnsemble(const Scene& scene, const MetropolisMethod& method,
       luminance_(bootstrap),
       population_(method.population()),
       chains_(at(std::max(options.integer("chains"), 1))),
-      image_(scene.film, request.threads),
+      statistics_(request.pixelStatistics),
+      image_(scene.film, request.threads, statistics_),
       learnsBase_(baseSamplesAtFirst(options) > 0 && options.number("baseSamples") < 0) {
   const std::vector<double> weights = bootstrap.techniqueLuminance();
   techniques_.setWeights(weights, std::vector<bool>(weights.size(), true));
@@ -57,6 +58,7 @@ ChainEnsemble::ChainEnsemble(const Scene& scene, const MetropolisMethod& method,
     const int kinds = kernels.kinds();
     Group& group = groups_.emplace_back(
         Group{{}, std::move(kernels), ChainStatistics(kinds, maxLength), {}, {}});
+    group.films.states.counting = statistics_.counts;
     if (group.kernels.baseSamples > 0)
       group.base = std::make_unique<BaseSamples>(target_, minLength, seed_, static_cast<int>(g),
                                                  static_cast<int>(groups));
@@ -234,6 +236,8 @@ RenderResult ChainEnsemble::result() const {
   RenderResult result;
   result.sampleUnit = "mutations";
   result.image = image_.image(mean);
+  if (statistics_.variance) result.variance = image_.variance(mean, error);
+  if (statistics_.counts) result.counts = image_.counts();
   result.samples = total.mutations;
   result.meanLuminance = mean;
   result.meanLuminanceError = error;

@@ -105,6 +105,7 @@ class ChainEnsemble {
   std::vector<std::unique_ptr<Chain>> chains_;
   std::size_t half_ = 0;  // so many of them are of the first half
   std::vector<Group> groups_;
+  PixelStatistics statistics_;
   ImageEstimate image_;
   int epoch_ = 0;
   bool learnsBase_;

@@ -4,11 +4,13 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <span>
 
 #include "mcmc/chain/chain_films.h"
 #include "mcmc/render/noise.h"
 #include "render/core/zeroed_array.h"
+#include "render/integrator/pixel_statistics.h"
 
 namespace h2mc {
 
@@ -27,11 +29,15 @@ namespace h2mc {
 // of luminance(C) / f and L known from the bootstrap and all samples. m is 1 without an importance map.
 // Nothing is subtracted: where C and h are not negative no pixel is.
 //
-// Memory: 48 bytes a pixel, 24 of them only between begin() and end(), and up to 9 MB.
+// Variance is told from the pictures that the two halves of the chains make by themselves in all stretches, so that it
+// knows how long chains take to forget.
+//
+// Memory: 48 bytes a pixel, 24 of them only between begin() and end(), and up to 9 MB. With variances twice as much,
+// with counts 24 bytes more.
 class ImageEstimate {
  public:
   // `threads`: to add up on; 0: one a core. What comes out does not depend on it.
-  ImageEstimate(const FilmSettings& settings, int threads);
+  ImageEstimate(const FilmSettings& settings, int threads, PixelStatistics statistics = {});
 
   // What a group has left in a round.
   struct Part {
@@ -58,6 +64,12 @@ class ImageEstimate {
   // What of it is by states, and what by samples, as numbers of which these are counted.
   TwoEstimates stateHalves(double luminance) const;
   TwoEstimates sampleHalves() const;
+  // Of that picture, the mean luminance having this standard error; where it was asked for. The square of the picture
+  // where one of the halves has made nothing.
+  Image variance(double luminance, double luminanceError) const;
+  // How many mutations have landed on each pixel, each shared between where it was and what it proposed; where that was
+  // asked for.
+  std::vector<float> counts() const;
 
  private:
   struct Sums {
@@ -68,7 +80,25 @@ class ImageEstimate {
     double ofStates() const { return overTarget > 0 ? mutations / overTarget : 0; }
     double ofSamples() const { return samples > 0 ? mutations / samples : 0; }
   };
+  // What half 0 makes of the present stretch, and by how much its picture is above the other half's in past ones, each
+  // as the sums of all are kept.
+  struct Apart {
+    explicit Apart(const FilmSettings& settings, std::size_t pixels)
+        : statesFilm(settings), samplesFilm(settings), states(pixels), samples(pixels) {}
+    ShortFilm statesFilm, samplesFilm;
+    std::array<Sums, 2> stretch;
+    ZeroedArray<Rgbf> states, samples;
+    std::array<double, 2> mutations{};  // of all stretches
+    void archive(Archive& archive);
+  };
+  struct Difference {
+    Rgbf states, samples;
+  };
+  // Of the present stretch at a pixel.
+  Difference differenceAt(int x, int y) const;
   void endStretch();
+  // All that are emptied with a stretch.
+  std::vector<ShortFilm*> films();
   double pixels() const;
 
   // Calls work(y, i) for every row y, whose first pixel is number i, in parallel.
@@ -79,6 +109,8 @@ class ImageEstimate {
   ShortFilm statesFilm_, samplesFilm_;
   Sums stretch_;               // on the films
   std::array<Sums, 2> epoch_;  // of the films' halves
+  std::optional<Apart> apart_;
+  std::optional<Film> landed_;
   // Past stretches, summed with their number of mutations as weights: states for a mean luminance of 1, and
   // samples.
   ZeroedArray<Rgbf> states_, samples_;

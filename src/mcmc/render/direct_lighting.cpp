@@ -73,7 +73,11 @@ void DirectLighting::add(double seconds, long long samples) {
 void DirectLighting::finishPart() {
   if (!part_) return;
   Part& part = *part_;
-  for (; part.half < 2 && !interrupted_; ++part.half, part.begun = false) addHalf(part);
+  for (; part.half < 2 && !interrupted_; ++part.half, part.begun = false) {
+    addHalf(part);
+    if (part.half == 0 && request_.pixelStatistics.variance)
+      part.first = part.film->film().develop(1, request_.threads);
+  }
   const double began = wallClock();
   sums_ = with(std::move(sums_), part);
   seconds_ += part.allSeconds + wallClock() - began;
@@ -143,6 +147,12 @@ DirectLighting::Sums DirectLighting::with(Sums sums, const Part& part) const {
     const Image rows = part.film->film().developHalf(half, 1 / now);
     mix(own.rows, rows.width, rows.height, request_.threads, before, now,
         [&](int x, int y) { return rows.at(x, y); });
+    if (half == 0 && request_.pixelStatistics.variance)
+      mix(sums.first, scene_.film.width, scene_.film.height, request_.threads, before, now,
+          [&](int x, int y) {
+            return part.half == 0 ? part.film->film().pixel(x, y, 1 / now)
+                                  : part.first.at(x, y) * static_cast<float>(1 / now);
+          });
   }
   const double all = static_cast<double>(tally(sums.halves).samples);
   if (all > had)
@@ -151,8 +161,26 @@ DirectLighting::Sums DirectLighting::with(Sums sums, const Part& part) const {
   return sums;
 }
 
+// The picture is (n_0 a + n_1 b) / n, and v / n its variance where that of a - b is v / n_0 + v / n_1.
+Image DirectLighting::variance(const Sums& sums) const {
+  Image result = sums.image;
+  const double all = static_cast<double>(tally(sums.halves).samples);
+  const double first = static_cast<double>(sums.halves[0].tally.samples);
+  if (!(all > 0)) return result;
+  const auto weight = static_cast<float>(first / (all - first));  // of (a - picture)^2
+  const bool both = first > 0 && first < all;
+  parallelFor(request_.threads, result.height, [&](int y) {
+    for (int x = 0; x < result.width; ++x) {
+      Rgbf& pixel = result.at(x, y);
+      pixel = both ? weight * squared(sums.first.at(x, y) - pixel) : squared(pixel);
+    }
+  });
+  return result;
+}
+
 void DirectLighting::archive(Archive& archive) {
   archive(renderSeconds_, perSample_, perMutation_, parts_, sums_.halves, sums_.image, seconds_);
+  if (request_.pixelStatistics.variance) archive(sums_.first);
   bool under = part_.has_value();
   archive(under);
   if (!under) return;
@@ -163,6 +191,7 @@ void DirectLighting::archive(Archive& archive) {
   Part& part = *part_;
   archive(part.seconds, part.samples, part.half, part.begun, part.seed, part.rounds,
           part.halfSeconds, part.allSeconds, *part.film);
+  if (request_.pixelStatistics.variance) archive(part.first);
 }
 
 void DirectLighting::extendTo(double renderSeconds, long long mutationsPerPixel) {
@@ -232,6 +261,11 @@ void DirectLighting::addTo(RenderResult& result) const {
   const Sums& sums = part_ ? more : sums_;
   for (std::size_t i = 0; i < sums.image.pixels.size(); ++i)
     result.image.pixels[i] += sums.image.pixels[i];
+  if (request_.pixelStatistics.variance && !sums.image.pixels.empty()) {
+    const Image own = variance(sums);
+    if (result.variance.pixels.empty()) result.variance = Image(own.width, own.height);
+    for (std::size_t i = 0; i < own.pixels.size(); ++i) result.variance.pixels[i] += own.pixels[i];
+  }
   const SampleTally all = tally(sums.halves);
   result.meanLuminance += all.meanLuminance();
   result.meanLuminanceError = std::hypot(result.meanLuminanceError, all.meanLuminanceError());

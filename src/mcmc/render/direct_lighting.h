@@ -22,6 +22,7 @@ struct DirectLightingPart {
   long long rounds = 0;                    // of that half, made
   double halfSeconds = 0, allSeconds = 0;  // spent on it, and on the whole part
   std::unique_ptr<SampledFilm> film;
+  Image first;  // the film's sums when half 0 was done, for variances
 };
 
 // Paths of one and two edges, in parts: each makes it less noisy. First as much of it as every render
@@ -99,6 +100,7 @@ class DirectLighting {
   struct Sums {
     std::array<Half, 2> halves;
     Image image;
+    Image first;  // half 0's picture, for variances
   };
   // More samples, half of them in each half: until there are so many a pixel, and so many seconds are over; 0:
   // the other is the only limit.
@@ -109,6 +111,8 @@ class DirectLighting {
   void addHalf(Part& part);
   // The sums, with the part's samples.
   Sums with(Sums sums, const Part& part) const;
+  // Of the sums' picture.
+  Image variance(const Sums& sums) const;
   static SampleTally tally(const std::array<Half, 2>& halves);
   SampleTally tally() const { return tally(sums_.halves); }
   // A pixel; no whole numbers where the time was short.

@@ -227,7 +227,11 @@ void MetropolisRender::atMark(std::size_t mark, const std::function<RenderResult
 RenderResult MetropolisRender::finished(RenderResult result) const {
   result.sampleUnit = "mutations";
   if (split()) direct_.addTo(result);
-  if (result.image.pixels.empty()) result.image = Image(scene_.film.width, scene_.film.height);
+  const Image empty(scene_.film.width, scene_.film.height);
+  if (result.image.pixels.empty()) result.image = empty;
+  const PixelStatistics& asked = request_.pixelStatistics;
+  if (asked.variance && result.variance.pixels.empty()) result.variance = empty;
+  if (asked.counts) result.counts.resize(empty.pixels.size());
   finish(scene_, result);
   countNotFinite(result.statistics);
   result.statistics["mean luminance"] = result.meanLuminance;

@@ -13,6 +13,10 @@ namespace {
 // Bytes a pixel. The chains' films and sums (ImageEstimate) are 48, of which 24 go between two epochs; then there is
 // either a film for direct light, or the pictures that make an importance map. Direct light's own picture stays.
 constexpr double kBetweenEpochs = 24 + 24, kInEpoch = 48, kImage = sizeof(Rgbf);
+// Variances have films and sums of one half of the chains, and their pictures; of direct light those of one half, of
+// what was made and of what is being made. Counts have a film.
+constexpr double kVariance = 48 + 2 * kImage, kDirectVariance = 2 * kImage,
+                 kCounts = 24 + sizeof(float);
 
 double bytesAPath(int maxLength) {
   return static_cast<double>(sizeof(Path)) +
@@ -22,8 +26,9 @@ double bytesAPath(int maxLength) {
 // A chain has a path and a proposal, and a third path is where it starts or goes on to. Then what it splats in a round
 // and what kernels keep of its states, as measured: most of it is Gaussians and paths as such, of which only the pages
 // that are used are there.
+constexpr double kSplats = 1500;
 double bytesAChain(const OptionSet& options, int maxLength) {
-  constexpr double kSplats = 1500, kPathSpace = 9000, kTechniques = 5500;
+  constexpr double kPathSpace = 9000, kTechniques = 5500;
   const double ofGaussians = 10750 + 250.0 * maxLength;
   double kept = kSplats;
   if (options.has("trajectoryLength") || options.has("stepSize")) kept += ofGaussians;
@@ -41,15 +46,19 @@ void requireMetropolisMemory(const Scene& scene, const OptionSet& options,
                              long long bootstrapSamples) {
   const bool direct = options.integer("directSamples") != 0;
   const bool marks = !request.marks.empty();
-  const double pixel =
+  const PixelStatistics& asked = request.pixelStatistics;
+  double pixel =
       (direct ? kImage : 0) + (marks ? kInEpoch + (direct ? 24 : kImage) : kBetweenEpochs);
+  if (asked.variance) pixel += kVariance + (direct ? kDirectVariance : 0);
+  if (asked.counts) pixel += kCounts;
   const double chains = options.integer("chains"), samples = static_cast<double>(bootstrapSamples);
-  requireMemory({filmMemory(scene.film, pixel),
-                 {chains * bytesAChain(options, maxLength),
-                  fmt::format("{:.0f} chains of paths of up to {} edges", chains, maxLength),
-                  "expected fewer by the option \"chains\""},
-                 {samples * sizeof(double), fmt::format("{:.0f} bootstrap samples", samples),
-                  "expected fewer by the option \"bootstrapSamples\""}});
+  const double chain = bytesAChain(options, maxLength) + (asked.counts ? kSplats : 0);
+  requireMemory(
+      {filmMemory(scene.film, pixel),
+       {chains * chain, fmt::format("{:.0f} chains of paths of up to {} edges", chains, maxLength),
+        "expected fewer by the option \"chains\""},
+       {samples * sizeof(double), fmt::format("{:.0f} bootstrap samples", samples),
+        "expected fewer by the option \"bootstrapSamples\""}});
 }
 
 }  // namespace h2mc

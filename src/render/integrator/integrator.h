@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "render/image/image.h"
+#include "render/integrator/pixel_statistics.h"
 #include "render/scene/option_set.h"
 
 namespace h2mc {
@@ -74,10 +75,16 @@ struct RenderRequest {
   // What save() wrote in a render of the same scene, integrator, options and seed, to go on from; null: from the
   // beginning. The budget is that of both together and may be larger than it was. Without marks.
   Archive* resume = nullptr;
+  PixelStatistics pixelStatistics;
 };
 
 struct RenderResult {
   Image image;
+  // What RenderRequest::pixelStatistics asks for, else empty. Variance: of each channel of a pixel's value. Each by
+  // itself is as uncertain as the square of a normal variate; its expectation is right where the halves are
+  // independent. The square of the value where there is no second half yet.
+  Image variance;
+  std::vector<float> counts;  // of mutations or samples on each pixel
   double wallSeconds = 0, cpuSeconds = 0;
   long long samples = 0;                             // all of them, not a pixel
   std::string sampleUnit;                            // "samples" or "mutations"

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <limits>
 #include <stdexcept>
 
 #include "ad/traits.h"
@@ -34,6 +35,9 @@ void finish(const Scene& scene, RenderResult& result) {
                         "give all lights smaller values");
     }
   });
+  for (Rgbf& pixel : result.variance.pixels)
+    pixel = Rgbf(
+        glm::min(glm::dvec3(pixel) * unit * unit, glm::dvec3(std::numeric_limits<float>::max())));
   result.meanLuminance *= unit;
   result.meanLuminanceError *= unit;
 }

@@ -45,8 +45,10 @@ Offset inSquare(int index, int side, std::uint64_t shift) {
   return {x % side, y % side};
 }
 
-RenderResult resultOf(const Scene& scene, const SampledFilm& sampled, int threads,
+RenderResult resultOf(const Scene& scene, const SampledFilm& sampled, const RenderRequest& request,
                       const RenderClock& clock, const RoundsResult& rounds) {
+  const PixelStatistics& statistics = request.pixelStatistics;
+  const int threads = request.threads;
   RenderResult result;
   result.wallSeconds = clock.wallSeconds();
   result.cpuSeconds = clock.cpuSeconds();
@@ -54,6 +56,8 @@ RenderResult resultOf(const Scene& scene, const SampledFilm& sampled, int thread
   const SampleTally total = sampled.tally(0);
   const double scale = total.samples > 0 ? 1 / static_cast<double>(total.samples) : 0;
   result.image = sampled.film().develop(scale, threads);
+  if (statistics.variance) result.variance = sampled.variance(threads);
+  if (statistics.counts) result.counts = sampled.counts();
   result.samples = total.samples;
   result.sampleUnit = "samples";
   result.meanLuminance = total.meanLuminance();
@@ -98,9 +102,12 @@ double SampleTally::meanLuminanceError() const {
   return std::sqrt(std::max(0.0, squares / n - mean * mean) / n);
 }
 
-SampledFilm::SampledFilm(const Scene& scene, const MakeSampler& makeSampler, int step)
+SampledFilm::SampledFilm(const Scene& scene, const MakeSampler& makeSampler, int step,
+                         PixelStatistics statistics)
     : scene_(scene), side_(sideFor(scene.film)), film_(scene.film, step) {
   const long long pixels = static_cast<long long>(scene.film.width) * scene.film.height;
+  if (statistics.variance) even_.emplace(scene.film);
+  if (statistics.counts) counts_.resize(static_cast<std::size_t>(pixels));
   groups_.resize(at(groupCount(pixels / roundsAPass())));
   for (Group& group : groups_) group.sampler = makeSampler();
 }
@@ -136,12 +143,42 @@ void SampledFilm::sample(int index, long long round, std::uint64_t seed, int hal
     tally.luminance += added;
     tally.squares += added * added;
     ++tally.samples;
+    if (pass % 2 == 0) ++group.inEven;
+    if (!counts_.empty()) ++counts_[pixel];
   }
 }
 
 void SampledFilm::archive(Archive& archive) {
   archive(film_);
-  for (Group& group : groups_) archive(group.tally[0], group.tally[1]);
+  for (Group& group : groups_) archive(group.tally[0], group.tally[1], group.inEven);
+  if (even_) archive(*even_);
+  const std::size_t pixels = counts_.size();
+  archive(counts_);
+  if (counts_.size() != pixels) throw ArchiveError("it has another number of pixels");
+}
+
+// The picture is the mean of the even passes' and the odd passes', a and b, each by its share of the samples. Where
+// one sample has variance v, a - b has v / n_a + v / n_b, and the picture v / (n_a + n_b).
+Image SampledFilm::variance(int threads) const {
+  long long even = 0;
+  for (const Group& group : groups_) even += group.inEven;
+  const long long all = tally(0).samples + tally(1).samples, odd = all - even;
+  Image result(film_.width(), film_.height());
+  if (all == 0) return result;
+  const auto scale = [](long long samples) { return 1 / static_cast<double>(samples); };
+  const auto share = static_cast<float>(static_cast<double>(even) * static_cast<double>(odd) *
+                                        squared(scale(all)));
+  parallelFor(threads, result.height, [&](int y) {
+    for (int x = 0; x < result.width; ++x) {
+      if (even == 0 || odd == 0) {
+        result.at(x, y) = squared(film_.pixel(x, y, scale(all)));
+        continue;
+      }
+      const Rgbf inEven = even_->pixel(x, y, scale(even) + scale(odd));
+      result.at(x, y) = share * squared(inEven - film_.pixel(x, y, scale(odd)));
+    }
+  });
+  return result;
 }
 
 RoundsResult SampledFilm::add(const RenderRequest& request, const RenderClock& clock,
@@ -151,7 +188,12 @@ RoundsResult SampledFilm::add(const RenderRequest& request, const RenderClock& c
   plan.stopsInPass = true;
   std::vector<FilmPart> parts;
   for (Group& group : groups_) parts.push_back({&group.splats, half});
-  plan.endOfRound = [&] { addInOrder<double>(parts, request.threads, film_); };
+  long long round = plan.begin;
+  plan.endOfRound = [&] {
+    if (even_ && round / roundsAPass() % 2 == 0) addKeeping<double>(parts, request.threads, *even_);
+    ++round;
+    addInOrder<double>(parts, request.threads, film_);
+  };
   return runRounds(request, clock, static_cast<int>(groups_.size()), plan,
                    [&](int group, long long round) {
                      sample(group, round, request.seed, half);
@@ -164,15 +206,16 @@ namespace {
 // A render by samples, between two rounds.
 class SamplesInProgress final : public RenderInProgress {
  public:
-  SamplesInProgress(const Scene& scene, SampledFilm& sampled, int threads, RenderClock& clock)
-      : scene_(scene), sampled_(sampled), threads_(threads), clock_(clock) {}
+  SamplesInProgress(const Scene& scene, SampledFilm& sampled, const RenderRequest& request,
+                    RenderClock& clock)
+      : scene_(scene), sampled_(sampled), request_(request), clock_(clock) {}
 
   void setStanding(const RoundsResult& rounds, bool over) {
     rounds_ = rounds;
     over_ = over;
   }
   RenderResult result() const override {
-    return resultOf(scene_, sampled_, threads_, clock_, rounds_);
+    return resultOf(scene_, sampled_, request_, clock_, rounds_);
   }
   bool isExact() const override { return true; }
   bool isOver() const override { return over_; }
@@ -192,7 +235,7 @@ class SamplesInProgress final : public RenderInProgress {
  private:
   const Scene& scene_;
   SampledFilm& sampled_;
-  int threads_;
+  const RenderRequest& request_;
   RenderClock& clock_;
   RoundsResult rounds_;
   bool over_ = false;
@@ -203,10 +246,13 @@ class SamplesInProgress final : public RenderInProgress {
 RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
                            int defaultSamplesPerPixel, const MakeSampler& makeSampler) {
   // The film, the image that becomes of it, and what of a round waits to be added.
+  const PixelStatistics& statistics = request.pixelStatistics;
+  const double bytesAPixel = 24 + sizeof(Rgbf) + (statistics.variance ? 24 + sizeof(Rgbf) : 0) +
+                             (statistics.counts ? sizeof(std::uint32_t) + sizeof(float) : 0);
   requireMemory(
-      {filmMemory(scene.film, 24 + sizeof(Rgbf)), {kMostARound * 48.0, "samples of a round", ""}});
+      {filmMemory(scene.film, bytesAPixel), {kMostARound * 48.0, "samples of a round", ""}});
   RenderClock clock;
-  SampledFilm sampled(scene, makeSampler);
+  SampledFilm sampled(scene, makeSampler, 0, statistics);
   RoundsPlan plan;
   plan.seconds = request.budget.seconds;
   // A sample is what a mutation is compared with.
@@ -220,10 +266,9 @@ RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
   if (plan.seconds <= 0)
     for (double& mark : plan.marks) mark *= static_cast<double>(sampled.roundsAPass());
   plan.atMark = [&](std::size_t mark, const RoundsResult& rounds) {
-    clock.exclude(
-        [&] { request.atMark(mark, resultOf(scene, sampled, request.threads, clock, rounds)); });
+    clock.exclude([&] { request.atMark(mark, resultOf(scene, sampled, request, clock, rounds)); });
   };
-  SamplesInProgress progress(scene, sampled, request.threads, clock);
+  SamplesInProgress progress(scene, sampled, request, clock);
   if (request.resume) plan.begin = progress.resume(*request.resume);
   const auto watch = [&](const RoundsResult& rounds, bool over) {
     progress.setStanding(rounds, over);
@@ -232,7 +277,7 @@ RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
   if (request.watch) plan.watch = [&](long long rounds) { watch({rounds, false}, false); };
   const RoundsResult rounds = sampled.add(request, clock, plan);
   if (request.watch) watch(rounds, true);
-  return resultOf(scene, sampled, request.threads, clock, rounds);
+  return resultOf(scene, sampled, request, clock, rounds);
 }
 
 }  // namespace h2mc

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "render/core/random.h"
@@ -41,8 +42,9 @@ using MakeSampler = std::function<std::unique_ptr<PixelSampler>()>;
 // film, and 24 bytes for each splat of the 65,000 samples that a round has at most.
 class SampledFilm {
  public:
-  // Keeps a reference to the scene. `step`: as BasicFilm's.
-  SampledFilm(const Scene& scene, const MakeSampler& makeSampler, int step = 0);
+  // Keeps a reference to the scene. `step`: as BasicFilm's. With statistics another film has every other pass.
+  SampledFilm(const Scene& scene, const MakeSampler& makeSampler, int step = 0,
+              PixelStatistics statistics = {});
 
   // Rounds in a pass.
   long long roundsAPass() const { return static_cast<long long>(side_) * side_; }
@@ -56,18 +58,26 @@ class SampledFilm {
 
   const Film& film() const { return film_; }
   SampleTally tally(int half) const;
+  // Of the picture that all samples make; the statistics have to be asked for. Samples of different passes are
+  // independent.
+  Image variance(int threads) const;
+  // How many samples there are on each pixel.
+  std::vector<float> counts() const { return {counts_.begin(), counts_.end()}; }
 
  private:
   struct Group {
     std::unique_ptr<PixelSampler> sampler;
     SplatList splats;
     SampleTally tally[2];
+    long long inEven = 0;  // samples of passes 0, 2, ..
   };
   void sample(int group, long long round, std::uint64_t seed, int half);
 
   const Scene& scene_;
   int side_;  // a round has one pixel of each square of side x side
   Film film_;
+  std::optional<Film> even_;           // of passes 0, 2, ..
+  std::vector<std::uint32_t> counts_;  // by pixel
   std::vector<Group> groups_;
 };
 

@@ -69,10 +69,15 @@ void SplatList::addBand(int band, int half, BasicFilm<Real>& film) const {
 }
 
 template <class Real>
-void addInOrder(std::span<const FilmPart> parts, int threads, BasicFilm<Real>& film) {
+void addKeeping(std::span<const FilmPart> parts, int threads, BasicFilm<Real>& film) {
   parallelFor(threads, bandCount(threads, film.height()), [&](int band) {
     for (const FilmPart& part : parts) part.list->addBand(band, part.half, film);
   });
+}
+
+template <class Real>
+void addInOrder(std::span<const FilmPart> parts, int threads, BasicFilm<Real>& film) {
+  addKeeping(parts, threads, film);
   for (const FilmPart& part : parts) part.list->clear();
 }
 
@@ -80,6 +85,8 @@ template void SplatList::sort(const BasicFilm<float>&, int);
 template void SplatList::sort(const BasicFilm<double>&, int);
 template void SplatList::addBand(int, int, BasicFilm<float>&) const;
 template void SplatList::addBand(int, int, BasicFilm<double>&) const;
+template void addKeeping(std::span<const FilmPart>, int, BasicFilm<float>&);
+template void addKeeping(std::span<const FilmPart>, int, BasicFilm<double>&);
 template void addInOrder(std::span<const FilmPart>, int, BasicFilm<float>&);
 template void addInOrder(std::span<const FilmPart>, int, BasicFilm<double>&);
 

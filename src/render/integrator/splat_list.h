@@ -50,8 +50,11 @@ struct FilmPart {
   int half = 0;
 };
 
-// Adds the lists to the film in their order, on `threads` threads, and empties them. Precondition: sorted
-// for bandCount(threads, film.height()) bands.
+// Adds the lists to the film in their order, on `threads` threads. Precondition: sorted for
+// bandCount(threads, film.height()) bands.
+template <class Real>
+void addKeeping(std::span<const FilmPart> parts, int threads, BasicFilm<Real>& film);
+// The same, and empties them.
 template <class Real>
 void addInOrder(std::span<const FilmPart> parts, int threads, BasicFilm<Real>& film);
 
