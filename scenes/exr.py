@@ -8,6 +8,12 @@ import zlib
 
 def read(path):
     """(attributes as bytes, width, height, three lists of floats in rows from the top: r, g, b)."""
+    attributes, width, height, planes = read_planes(path)
+    return attributes, width, height, [planes[name] for name in "RGB"]
+
+
+def read_planes(path):
+    """The same with all channels, as lists of floats by their names."""
     with open(path, "rb") as stream:
         data = stream.read()
     if data[:4] != b"\x76\x2f\x31\x01":
@@ -46,7 +52,7 @@ def read(path):
                 first = (row * len(channels) + c) * width
                 to = (y - y0 + row) * width
                 planes[name][to:to + width] = values[first:first + width]
-    return attributes, width, height, [planes[name] for name in "RGB"]
+    return attributes, width, height, planes
 
 
 def unfilter(data):

@@ -70,6 +70,47 @@ TEST_F(ImageIo, ExrKeepsAttributes) {
   EXPECT_EQ(readAttributes(path("a.exr")), attributes);
 }
 
+// A part of a larger picture with layers of one and of three channels beside it.
+TEST_F(ImageIo, ExrWithLayers) {
+  const Image image = gradient(5, 3);
+  Layer depth = makeLayer(LayerKind::kDepth, image.pixels.size());
+  for (std::size_t i = 0; i < depth.values.size(); ++i) depth.values[i] = static_cast<float>(i);
+  const Layer normal = makeLayer(LayerKind::kNormal, gradient(5, 3));
+  const std::vector<Layer> layers{depth, normal};
+  const FilmWindow window{7, 2, 20, 10};
+  writeLayeredImage(path("a.exr"), image, {{{"threads", 3}}, layers, window});
+
+  const ExrHeader header = readExrHeader(path("a.exr"));
+  EXPECT_EQ(header.width, 5);
+  EXPECT_EQ(header.height, 3);
+  EXPECT_EQ(header.window, window);
+  EXPECT_EQ(header.attributes, (ImageAttributes{{"threads", 3}}));
+  EXPECT_EQ(layersOf(header), (std::vector<std::string>{"depth", "normal"}));
+  const Image back = readImage(path("a.exr"));
+  ASSERT_EQ(back.width, 5);
+  EXPECT_EQ(back.pixels, image.pixels);
+  EXPECT_EQ(readImage(path("a.exr"), 0, "depth.Z").at(2, 1), Rgbf(7));
+
+  const std::vector<Layer> both = readLayers(path("a.exr"), {"normal", "depth", "none"});
+  ASSERT_EQ(both.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(both[i].name, layers[i].name);
+    EXPECT_EQ(both[i].channels, layers[i].channels);
+    EXPECT_EQ(both[i].values, layers[i].values);
+  }
+  EXPECT_EQ(pictureOf(both[1], 5, 3).pixels, image.pixels);
+  // By the alphabet in the file, as pictures have them in memory.
+  const Layer albedo = makeLayer(LayerKind::kAlbedo, image);
+  writeLayeredImage(path("b.exr"), image, {{}, std::span(&albedo, 1), {}});
+  const std::vector<Layer> color = readLayers(path("b.exr"), {"albedo"});
+  EXPECT_EQ(color.at(0).channels, (std::vector<std::string>{"R", "G", "B"}));
+  EXPECT_EQ(color.at(0).values, albedo.values);
+  EXPECT_FALSE(readExrHeader(path("b.exr")).window.isPart());
+  // Other formats have the picture alone.
+  writeLayeredImage(path("c.png"), image, {{}, std::span(&albedo, 1), window});
+  EXPECT_EQ(readImage(path("c.png")).width, 5);
+}
+
 TEST_F(ImageIo, ExrHeaderAlone) {
   writeImage(path("a.exr"), gradient(5, 3), {{"threads", 3}});
   const ExrHeader header = readExrHeader(path("a.exr"));

@@ -45,10 +45,16 @@ std::uint64_t mostPixels = kMostPixels;
 
 enum class Format { kExr, kHdr, kPng };
 
-Format formatOf(const std::string& path) {
+// With its dot, in small letters.
+std::string endingOf(const std::string& path) {
   std::string ending = fs::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+Format formatOf(const std::string& path) {
+  const std::string ending = endingOf(path);
   if (ending == ".exr") return Format::kExr;
   if (ending == ".hdr") return Format::kHdr;
   if (ending == ".png") return Format::kPng;
@@ -165,11 +171,28 @@ void close(std::ofstream& stream) {
   if (!stream) throw std::runtime_error("writing failed, is the disk full?");
 }
 
-void writeExr(const AtomicFile& file, const Image& image, const ImageAttributes& attributes) {
-  Imf::Header header(image.width, image.height);
+// In OpenEXR's coordinates of the whole picture.
+Imath::Box2i dataWindow(const Image& image, const FilmWindow& window) {
+  const Imath::V2i corner(window.x, window.y);
+  return {corner, corner + Imath::V2i(image.width - 1, image.height - 1)};
+}
+
+// A channel of floats that lie `stride` floats apart, the first pixel's at `first`. OpenEXR takes a pointer it could
+// write through, and does not when it is given for output.
+Imf::Slice sliceOf(const float* first, std::size_t stride, const Imath::Box2i& window) {
+  const std::size_t step = stride * sizeof(float);
+  return Imf::Slice::Make(Imf::FLOAT, first, window, step,
+                          step * at(window.max.x - window.min.x + 1));
+}
+
+void writeExr(const AtomicFile& file, const Image& image, const ExrExtras& extras) {
+  const Imath::Box2i window = dataWindow(image, extras.window);
+  const bool part = extras.window.isPart();
+  Imf::Header header(part ? extras.window.wholeWidth : image.width,
+                     part ? extras.window.wholeHeight : image.height, window);
   header.compression() = Imf::ZIP_COMPRESSION;
   Imf::addChromaticities(header, Imf::Chromaticities());  // the default is Rec. 709
-  for (const auto& [name, value] : attributes) {
+  for (const auto& [name, value] : extras.attributes) {
     if (const auto* text = std::get_if<std::string>(&value))
       header.insert(name, Imf::StringAttribute(*text));
     else if (const auto* number = std::get_if<double>(&value))
@@ -179,14 +202,17 @@ void writeExr(const AtomicFile& file, const Image& image, const ImageAttributes&
   }
 
   Imf::FrameBuffer frame;
-  const char* channels[] = {"R", "G", "B"};
-  // OpenEXR takes a pointer it could write through, and does not when it is given for output.
-  char* base = reinterpret_cast<char*>(const_cast<Rgbf*>(image.pixels.data()));
-  for (int c = 0; c < 3; ++c) {
-    header.channels().insert(channels[c], Imf::Channel(Imf::FLOAT));
-    frame.insert(channels[c], Imf::Slice(Imf::FLOAT, base + c * sizeof(float), sizeof(Rgbf),
-                                         sizeof(Rgbf) * image.width));
-  }
+  const auto insert = [&](const std::string& name, const float* first, std::size_t stride) {
+    header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    frame.insert(name, sliceOf(first, stride, window));
+  };
+  const float* const pixels = &image.pixels.data()->x;
+  insert("R", pixels, 3);
+  insert("G", pixels + 1, 3);
+  insert("B", pixels + 2, 3);
+  for (const Layer& layer : extras.layers)
+    for (std::size_t c = 0; c < layer.channels.size(); ++c)
+      insert(layer.name + "." + layer.channels[c], layer.values.data() + c, layer.channels.size());
 
   // Compressing a large picture takes seconds; starting threads is not worth it for a small one. zlib makes two percent
   // of a noisy picture's floats: in the largest ones, where whoever presses Ctrl-C waits, run lengths must do.
@@ -282,6 +308,10 @@ ExrHeader readExrHeader(const std::string& path) {
     const Imath::Box2i& window = header.dataWindow();
     result.width = window.max.x - window.min.x + 1;
     result.height = window.max.y - window.min.y + 1;
+    const Imath::Box2i& whole = header.displayWindow();
+    if (window != whole)
+      result.window = {window.min.x - whole.min.x, window.min.y - whole.min.y,
+                       whole.max.x - whole.min.x + 1, whole.max.y - whole.min.y + 1};
     for (auto it = header.channels().begin(); it != header.channels().end(); ++it)
       result.channels.emplace_back(it.name());
     ImageAttributes& attributes = result.attributes;
@@ -306,7 +336,78 @@ ExrHeader readExrHeader(const std::string& path) {
 
 ImageAttributes readAttributes(const std::string& path) { return readExrHeader(path).attributes; }
 
+namespace {
+
+// "normal" of "normal.X", "" of "R".
+std::string layerOf(const std::string& channel) {
+  const std::size_t dot = channel.rfind('.');
+  return dot == std::string::npos ? "" : channel.substr(0, dot);
+}
+
+// As pictures have them; the file has them by the alphabet.
+void sortChannels(std::vector<std::string>& channels) {
+  const auto rank = [](const std::string& name) {
+    const std::size_t place = std::string_view("RrGgBbAa").find(name);
+    return name.size() == 1 && place != std::string_view::npos ? place : 8;
+  };
+  std::stable_sort(channels.begin(), channels.end(),
+                   [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+}
+
+}  // namespace
+
+std::vector<std::string> layersOf(const ExrHeader& header) {
+  std::vector<std::string> layers;
+  for (const std::string& channel : header.channels) {
+    const std::string layer = layerOf(channel);
+    if (!layer.empty() && std::find(layers.begin(), layers.end(), layer) == layers.end())
+      layers.push_back(layer);
+  }
+  return layers;
+}
+
+std::vector<Layer> readLayers(const std::string& path, const std::vector<std::string>& names) {
+  const ExrHeader header = readExrHeader(path);
+  std::vector<Layer> layers;
+  for (const std::string& name : layersOf(header)) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) continue;
+    layers.push_back({name, {}, {}});
+    for (const std::string& channel : header.channels)
+      if (layerOf(channel) == name)
+        layers.back().channels.push_back(channel.substr(name.size() + 1));
+    sortChannels(layers.back().channels);
+  }
+  try {
+    std::size_t channels = 0;
+    for (const Layer& layer : layers) channels += layer.channels.size();
+    checkHeader(
+        opened(path), header.width, header.height, static_cast<int>(channels),
+        double(header.width) * header.height * static_cast<double>(channels * sizeof(float)));
+    Imf::InputFile file(path.c_str());
+    const Imath::Box2i& window = file.header().dataWindow();
+    Imf::FrameBuffer frame;
+    for (Layer& layer : layers) {
+      const std::size_t stride = layer.channels.size();
+      layer.values.resize(at(header.width) * at(header.height) * stride);
+      for (std::size_t c = 0; c < stride; ++c)
+        frame.insert(layer.name + "." + layer.channels[c],
+                     sliceOf(layer.values.data() + c, stride, window));
+    }
+    file.setFrameBuffer(frame);
+    file.readPixels(window.min.y, window.max.y);
+  } catch (const std::exception& e) {
+    failReading(path, e.what());
+  }
+  return layers;
+}
+
 void writeImage(const std::string& path, const Image& image, const ImageAttributes& attributes) {
+  writeLayeredImage(path, image, {attributes, {}, {}});
+}
+
+bool isExr(const std::string& path) { return endingOf(path) == ".exr"; }
+
+void writeLayeredImage(const std::string& path, const Image& image, const ExrExtras& extras) {
   const Format format = formatOf(path);
   if (image.width <= 0 || image.height <= 0)
     throw ImageError("cannot write \"" + path + "\": the image is empty");
@@ -319,7 +420,7 @@ void writeImage(const std::string& path, const Image& image, const ImageAttribut
   try {
     switch (format) {
       case Format::kExr:
-        writeExr(*file, image, attributes);
+        writeExr(*file, image, extras);
         break;
       case Format::kHdr:
         writeBytes(*file, imageFormats().hdrFile(image.width, image.height, notNegative(image)));

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "render/core/user_error.h"
+#include "render/image/film_window.h"
 #include "render/image/image.h"
+#include "render/image/layer.h"
 
 namespace h2mc {
 
@@ -32,14 +35,31 @@ ImageAttributes readAttributes(const std::string& path);
 struct ExrHeader {
   int width = 0, height = 0;
   std::vector<std::string> channels;
+  FilmWindow window;  // that its data window is, where that is not its display window
   ImageAttributes attributes;
 };
 ExrHeader readExrHeader(const std::string& path);
 
+// The layers that a file's channels make, by the part of their names before the last dot; the picture's own, R, G and
+// B, are none.
+std::vector<std::string> layersOf(const ExrHeader& header);
+// One of them, or all: those that the names say, in the file's order. Throws ImageError.
+std::vector<Layer> readLayers(const std::string& path, const std::vector<std::string>& names);
+
+// What goes into an EXR beside the picture, and is left out of other formats.
+struct ExrExtras {
+  ImageAttributes attributes;
+  std::span<const Layer> layers;  // of the picture's size
+  FilmWindow window;              // the data window, in a display window of the whole picture
+};
+
 // Writes by the path's ending: .exr (32-bit float, with the attributes), .hdr, .png (sRGB, 8 bit).
 // Written to a temporary name beside it and renamed. Throws ImageError.
+void writeLayeredImage(const std::string& path, const Image& image, const ExrExtras& extras);
 void writeImage(const std::string& path, const Image& image,
                 const ImageAttributes& attributes = {});
+// Whether the path's ending is .exr, in either case.
+bool isExr(const std::string& path);
 
 // Finds out early what would make writeImage fail: an unknown ending, a folder that is not there or
 // cannot be written to. Throws ImageError. Leaves nothing behind.

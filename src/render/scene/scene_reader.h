@@ -3,9 +3,11 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 
+#include "render/image/film_window.h"
 #include "render/scene/problems.h"
 #include "render/scene/properties.h"
 #include "render/scene/scene.h"
@@ -19,6 +21,11 @@ struct ReadOptions {
   // The image's size instead of the scene's; one alone keeps the aspect ratio. 0: the scene's.
   int width = 0, height = 0;
   double scale = 0;  // of width and height both; 0: none
+  // The part of that image that is rendered, which may be a part of the film by the scene already; none: all of it.
+  std::optional<PixelRectangle> crop;
+  // Where to say which part of the whole film it is, by the scene and by `crop`, if not null. In whole pixels, which
+  // the image's size may have rounded.
+  FilmWindow* window = nullptr;
   Strictness strictness = Strictness::kByVersion;
   std::string
       confine;  // the folder that files which the scene refers to must lie below; "": anywhere

@@ -92,6 +92,37 @@ struct Window {
   double left = 0, top = 0, right = 1, bottom = 1;
 };
 
+// The part of a window that the crop is, once the film is of the size that the image would have; the film becomes the
+// part.
+Window croppedTo(const PixelRectangle& crop, const Window& window, FilmSettings& film) {
+  const bool inside = crop.x >= 0 && crop.y >= 0 && crop.width > 0 && crop.height > 0 &&
+                      crop.x <= film.width - crop.width && crop.y <= film.height - crop.height;
+  if (!inside)
+    throw SceneError(
+        fmt::format("error: the window of {} x {} pixels at ({}, {}) is not within the image\n"
+                    "expected a part of {} x {} pixels",
+                    crop.width, crop.height, crop.x, crop.y, film.width, film.height));
+  const double stepX = (window.right - window.left) / film.width;
+  const double stepY = (window.bottom - window.top) / film.height;
+  film.width = crop.width;
+  film.height = crop.height;
+  return {window.left + stepX * crop.x, window.top + stepY * crop.y,
+          window.left + stepX * (crop.x + crop.width), window.top + stepY * (crop.y + crop.height)};
+}
+
+// The same in pixels.
+FilmWindow inPixels(const Window& window, const FilmSettings& film) {
+  if (window.right - window.left >= 1 && window.bottom - window.top >= 1) return {};
+  const auto fit = [](double from, double to, int size, int& offset, int& whole) {
+    whole = std::max(size, static_cast<int>(std::lround(size / (to - from))));
+    offset = std::clamp(static_cast<int>(std::lround(from * whole)), 0, whole - size);
+  };
+  FilmWindow result;
+  fit(window.left, window.right, film.width, result.x, result.wholeWidth);
+  fit(window.top, window.bottom, film.height, result.y, result.wholeHeight);
+  return result;
+}
+
 // The window that the film's crop parameters give; the film becomes the window.
 Window readWindow(const ElementProperties& p, FilmSettings& film) {
   const int width = film.width, height = film.height;
@@ -237,6 +268,8 @@ void readSensor(ReaderContext& context, const XmlElement& element, const ReadOpt
     scene.film.filter = defaultFilter();
     resize(scene.film, options, nullptr);
   }
+  if (options.crop) window = croppedTo(*options.crop, window, scene.film);
+  if (options.window) *options.window = inPixels(window, scene.film);
   if (sampler) scene.samplesPerPixel = readSampler(context, *sampler);
 
   // Of the whole film: fov is for that.
