@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cli/commands.h"
+#include "cli/look_options.h"
 #include "mcmc/methods/presets.h"
 #include "mcmc/render/integrators.h"
 #include "render/image/metrics.h"
@@ -25,6 +26,8 @@ Names namesOfType(const std::string& type) {
     names.emplace_back("all");
   } else if (type == "SECTION") {
     names = listSections();
+  } else if (type == "LAYERS") {
+    names = layerKindNames();
   }
   return names;
 }

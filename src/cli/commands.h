@@ -42,6 +42,8 @@ class InputError : public UserError {
 // returns the exit code.
 using Run = std::function<int()>;
 void addRenderCommand(CLI::App& app, Run& run);
+void addRerenderCommand(CLI::App& app, Run& run);
+void addConvertCommand(CLI::App& app, Run& run);
 void addInfoCommand(CLI::App& app, Run& run);
 void addListCommand(CLI::App& app, Run& run);
 void addDiffCommand(CLI::App& app, Run& run);

@@ -64,6 +64,7 @@ ImageAttributes attributesOf(const ImageHeader& header) {
       {"interrupted", header.interrupted ? 1 : 0},
       {"programVersion", header.programVersion},  // "version" is taken by OpenEXR
   };
+  if (!header.request.empty()) attributes["renderRequest"] = header.request;
   if (!header.sceneDefines.empty()) attributes["sceneDefines"] = header.sceneDefines;
   // Text: 64 bits, which no number of the format's holds.
   attributes[header.seeds.size() == 1 ? "seed" : "seeds"] =
@@ -78,6 +79,8 @@ ImageHeader imageHeader(const ImageAttributes& attributes) {
   header.sceneDigest = valueOf<std::string>(attributes, "sceneDigest");
   if (attributes.contains("sceneDefines"))
     header.sceneDefines = valueOf<std::string>(attributes, "sceneDefines");
+  if (attributes.contains("renderRequest"))
+    header.request = valueOf<std::string>(attributes, "renderRequest");
   header.integrator = valueOf<std::string>(attributes, "integrator");
   header.integratorOptions = valueOf<std::string>(attributes, "integratorOptions");
   header.seeds =

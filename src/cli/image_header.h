@@ -24,6 +24,9 @@ struct ImageHeader {
   double meanLuminance = 0, meanLuminanceError = 0;  // of the image; its standard error
   bool interrupted = false;
   std::string programVersion;
+  // What else is needed to render it again, as JSON: definitions, size, window, layers, budget. Empty where the image
+  // is no render's.
+  std::string request;
 };
 
 ImageAttributes attributesOf(const ImageHeader& header);

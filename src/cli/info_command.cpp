@@ -9,6 +9,7 @@
 
 #include "cli/commands.h"
 #include "cli/statistics_table.h"
+#include "render/image/image_io.h"
 #include "render/scene/change_note.h"
 #include "render/scene/kinds.h"
 #include "render/scene/scene.h"
@@ -149,7 +150,28 @@ void printIntegrator(const OptionSet& integrator) {
   line("integrator", integrator.integrator() + options);
 }
 
+std::string text(const std::variant<std::string, double, int>& value) {
+  return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
+}
+
+// Of an EXR, what its header says.
+int imageInfo(const std::string& file) {
+  const ExrHeader header = readExrHeader(file);
+  line("image", file);
+  line("size", fmt::format("{} x {}", header.width, header.height));
+  const FilmWindow& window = header.window;
+  if (window.isPart())
+    line("window", fmt::format("from ({}, {}) on of {} x {}", window.x, window.y, window.wholeWidth,
+                               window.wholeHeight));
+  line("channels", fmt::format("{}", fmt::join(header.channels, ", ")));
+  const std::vector<std::string> layers = layersOf(header);
+  line("layers", layers.empty() ? "none" : fmt::format("{}", fmt::join(layers, ", ")));
+  for (const auto& [name, value] : header.attributes) fmt::print("{:<20}{}\n", name, text(value));
+  return kSuccess;
+}
+
 int info(const InfoOptions& options) {
+  if (isExr(options.scene)) return imageInfo(options.scene);
   const std::vector<IntegratorPlugin> integrators = integratorPlugins();
   ReadOptions read;
   read.defines = parseDefines(options.defines);
@@ -181,8 +203,9 @@ int info(const InfoOptions& options) {
 
 void addInfoCommand(CLI::App& app, Run& run) {
   auto options = std::make_shared<InfoOptions>();
-  CLI::App* command = app.add_subcommand("info", "What a scene file holds, as it was read");
-  command->add_option("SCENE", options->scene, "Scene file (Mitsuba XML)")
+  CLI::App* command =
+      app.add_subcommand("info", "What a scene file holds, as it was read; or an EXR's header");
+  command->add_option("SCENE", options->scene, "Scene file (Mitsuba XML), or an EXR")
       ->required()
       ->type_name("FILE");
   addDefines(*command, options->defines);

@@ -105,6 +105,7 @@ int run(int argc, char** argv) {
       "dark (inspect), 2 wrong input, 3 any other failure, 130 interrupted.");
   Run command;
   addRenderCommand(app, command);
+  addRerenderCommand(app, command);
   addInfoCommand(app, command);
   addListCommand(app, command);
   addDiffCommand(app, command);
@@ -114,6 +115,7 @@ int run(int argc, char** argv) {
   addDemoCommand(app, command);
   addInspectCommand(app, command);
   addMergeCommand(app, command);
+  addConvertCommand(app, command);
   addCompletionCommand(app, command);
   addManCommand(app, command);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <set>
 
 #include "cli/commands.h"
 #include "cli/identity.h"
@@ -15,6 +16,7 @@
 #include "render/core/memory.h"
 #include "render/image/image_io.h"
 #include "render/image/metrics.h"
+#include "render/integrator/features.h"
 
 namespace h2mc {
 namespace {
@@ -29,7 +31,9 @@ struct MergeOptions {
 struct Part {
   std::string file;
   int width = 0, height = 0;
+  FilmWindow window;
   ImageHeader header;
+  std::vector<std::string> layers;
 };
 
 // "a=1,b=2" as a map, without the budget.
@@ -54,7 +58,7 @@ std::string textOf(const std::map<std::string, std::string>& options) {
 
 Part readPart(const std::string& file) {
   const ExrHeader exr = readExrHeader(file);
-  Part part{file, exr.width, exr.height, {}};
+  Part part{file, exr.width, exr.height, exr.window, {}, layersOf(exr)};
   const auto fail = [&](const std::string& why) -> InputError {
     return InputError(fmt::format("cannot merge \"{}\": {}", file, why));
   };
@@ -64,10 +68,10 @@ Part readPart(const std::string& file) {
     throw fail(std::string(e.what()) +
                "; expected an EXR as this version's `h2mc render` or `h2mc merge` writes it");
   }
-  std::vector<std::string> channels = exr.channels;
-  std::sort(channels.begin(), channels.end());
-  if (channels != std::vector<std::string>{"B", "G", "R"})
-    throw fail(fmt::format("its channels are {}, expected R, G and B", fmt::join(channels, ", ")));
+  for (const char* channel : {"R", "G", "B"})
+    if (std::find(exr.channels.begin(), exr.channels.end(), channel) == exr.channels.end())
+      throw fail(
+          fmt::format("its channels are {}, expected R, G and B", fmt::join(exr.channels, ", ")));
   if (!(part.header.samples > 0)) throw fail("it has no " + part.header.sampleUnit + " yet");
   return part;
 }
@@ -83,6 +87,12 @@ std::string difference(const Part& a, const Part& b) {
                : fmt::format("{} is {} in one and {} in the other", what, shown(one), shown(other));
   };
   const auto size = [](const Part& p) { return fmt::format("{} x {}", p.width, p.height); };
+  const auto window = [](const Part& p) {
+    const FilmWindow& w = p.window;
+    return w.isPart()
+               ? fmt::format("from ({}, {}) on of {} x {}", w.x, w.y, w.wholeWidth, w.wholeHeight)
+               : std::string("the whole");
+  };
   std::string found = differs("the program version", x.programVersion, y.programVersion);
   if (found.empty() && x.sceneDigest != y.sceneDigest) {
     found = differs("what -D defines", x.sceneDefines, y.sceneDefines);
@@ -93,6 +103,7 @@ std::string difference(const Part& a, const Part& b) {
                   : fmt::format("the scenes \"{}\" and \"{}\" are not the same", x.scene, y.scene);
   }
   if (found.empty()) found = differs("the size", size(a), size(b));
+  if (found.empty()) found = differs("the window", window(a), window(b));
   if (found.empty()) found = differs("the integrator", x.integrator, y.integrator);
   if (found.empty()) found = differs("the unit of work", x.sampleUnit, y.sampleUnit);
   if (!found.empty()) return found;
@@ -140,6 +151,7 @@ ImageHeader mergedHeader(const std::vector<Part>& parts) {
   merged.threads = 0;
   merged.wallSeconds = merged.cpuSeconds = merged.samples = 0;
   merged.interrupted = false;
+  if (parts.size() > 1) merged.request.clear();
   double luminance = 0, variance = 0;  // times the samples, and their square
   for (const Part& part : parts) {
     const ImageHeader& header = part.header;
@@ -182,6 +194,50 @@ Image meanOf(const std::vector<Part>& parts, double samples) {
   return mean;
 }
 
+// What all images together say of their pixels: counts add up, variances as those of a mean. What was seen first is
+// the same in all of them, so one image's is taken.
+std::vector<Layer> mergedLayers(const std::vector<Part>& parts, double samples) {
+  std::vector<Layer> merged;
+  for (const LayerName& kind : layerNames()) {
+    std::vector<const Part*> having;
+    for (const Part& part : parts)
+      if (std::count(part.layers.begin(), part.layers.end(), kind.name) > 0)
+        having.push_back(&part);
+    if (having.empty()) continue;
+    const auto read = [&](const Part& part) {
+      Layer layer = std::move(readLayers(part.file, {kind.name}).front());
+      if (layer.channels != kind.channels ||
+          layer.values.size() != at(part.width) * at(part.height) * kind.channels.size())
+        throw InputError(fmt::format("cannot merge \"{}\": its layer {} is not one of h2mc's",
+                                     part.file, kind.name));
+      return layer;
+    };
+    if (isFeature(kind.kind)) {
+      merged.push_back(read(*having.front()));
+      continue;
+    }
+    if (having.size() < parts.size()) continue;
+    const std::size_t pixels = at(parts.front().width) * at(parts.front().height);
+    Layer sum = makeLayer(kind.kind, pixels);
+    for (const Part& part : parts) {
+      const double share = part.header.samples / samples;
+      const auto weight = static_cast<float>(kind.kind == LayerKind::kVariance ? share * share : 1);
+      const Layer own = read(part);
+      for (std::size_t i = 0; i < sum.values.size(); ++i) sum.values[i] += weight * own.values[i];
+    }
+    merged.push_back(std::move(sum));
+  }
+  return merged;
+}
+
+// Names of layers that an image has and the merged one does not.
+std::set<std::string> leftOut(const std::vector<Part>& parts, const std::vector<Layer>& merged) {
+  std::set<std::string> names;
+  for (const Part& part : parts) names.insert(part.layers.begin(), part.layers.end());
+  for (const Layer& layer : merged) names.erase(layer.name);
+  return names;
+}
+
 int merge(const MergeOptions& options) {
   for (const std::string& image : options.images)
     checkDistinct({{"an image that is read", image}, {"the merged image", options.output}});
@@ -189,8 +245,11 @@ int merge(const MergeOptions& options) {
   const std::vector<Part> parts = readParts(options.images);
   const ImageHeader header = mergedHeader(parts);
   const Image mean = meanOf(parts, header.samples);
+  std::vector<Layer> layers;
+  if (isExr(options.output)) layers = mergedLayers(parts, header.samples);
+  const std::set<std::string> dropped = leftOut(parts, layers);
   try {
-    writeImage(options.output, mean, attributesOf(header));
+    writeLayeredImage(options.output, mean, {attributesOf(header), layers, parts.front().window});
   } catch (const ImageError& e) {  // the path was right before
     fmt::print(stderr, "h2mc: {}\n", e.what());
     return kFailed;
@@ -200,6 +259,10 @@ int merge(const MergeOptions& options) {
                options.output, parts.size(), parts.size() == 1 ? "" : "s", mean.width, mean.height,
                withSeparators(static_cast<long long>(header.samples)), header.sampleUnit,
                header.meanLuminance, header.meanLuminanceError);
+  if (!options.quiet && !dropped.empty())
+    fmt::print(stderr, "layers left out{}: {}\n",
+               isExr(options.output) ? ", as not all images have them or they are not h2mc's" : "",
+               fmt::join(dropped, ", "));
   return kSuccess;
 }
 
@@ -223,7 +286,9 @@ void addMergeCommand(CLI::App& app, Run& run) {
       "The result is the mean of the images, each with the weight of its samples or mutations as "
       "its header has them. Images are refused that differ in program version, scene, size, "
       "integrator or options (budgets may differ), and those that share a seed. One image alone "
-      "is taken too.\n"
+      "is taken too. Of layers, mutations are added up and variances become that of the mean, "
+      "where "
+      "all images have them; what is seen first is the first image's that has it.\n"
       "\n"
       "Example, each render on a machine of its own:\n"
       "  h2mc render ring.xml --seed 1 -o ring-1.exr\n"

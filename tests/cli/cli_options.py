@@ -16,8 +16,8 @@ class General(_h2mc.Test):
 
     def test_help(self):
         text = self.succeeds("--help").stdout
-        for command in ("render", "info", "list", "diff", "gradcheck", "stress", "compare", "demo", "inspect", "merge",
-                        "completion", "man"):
+        for command in ("render", "rerender", "info", "list", "diff", "gradcheck", "stress", "compare", "demo",
+                        "inspect", "merge", "convert", "completion", "man"):
             self.assertIn(command, text)
             self.assertIn("-h", self.succeeds(command, "--help").stdout)
         for option in ("--output", "--integrator", "--time", "--samples-per-pixel",

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: MIT
+#include "cli/render_run.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <thread>
+
+#include "cli/commands.h"
+#include "cli/identity.h"
+#include "cli/image_header.h"
+#include "cli/progress_display.h"
+#include "cli/statistics_table.h"
+#include "cli/stop_signals.h"
+#include "h2mc_version.h"
+#include "mcmc/render/integrator_choice.h"
+#include "mcmc/render/render_report.h"
+#include "render/image/atomic_file.h"
+#include "render/image/image_io.h"
+#include "render/integrator/features.h"
+#include "render/scene/scene.h"
+#include "render/scene/scene_reader.h"
+#include "render/scene/suggestion.h"
+
+namespace h2mc {
+namespace {
+
+namespace fs = std::filesystem;
+
+void checkBudget(const RenderBudget& budget) {
+  const int given =
+      (budget.seconds > 0) + (budget.samplesPerPixel > 0) + (budget.mutationsPerPixel > 0);
+  if (given > 1)
+    throw InputError(
+        "--time, --samples-per-pixel and --mutations-per-pixel exclude one another: give one");
+}
+
+// The image, and the PNG beside it where that is another file.
+struct Outputs {
+  std::string image, png;
+};
+
+// What is rendered, once the scene has been asked as well.
+struct Plan {
+  const RenderOptions& options;
+  Outputs outputs;
+  OptionSet integrator;
+  std::vector<LayerKind> layers;
+  FilmWindow window{};
+  std::vector<Layer> features{};  // those of the layers that the integrator has nothing to do with
+  std::uint64_t seed = 0;
+  int threads = 1;
+  std::string sceneDigest{};
+};
+
+Outputs outputsOf(const RenderOptions& options) {
+  Outputs outputs;
+  outputs.image =
+      options.output.empty() ? fs::path(options.scene).stem().string() + ".exr" : options.output;
+  if (options.png) {
+    const std::string png = fs::path(outputs.image).replace_extension(".png").string();
+    if (png != outputs.image) outputs.png = png;
+  }
+  return outputs;
+}
+
+bool isPng(const std::string& file) {
+  return lowerCase(fs::path(file).extension().string()) == ".png";
+}
+
+// Options that have no effect are mistakes.
+void checkEffects(const Outputs& outputs, const RenderOptions& options) {
+  if (!options.layers.empty() && !isExr(outputs.image))
+    throw InputError("--aov: layers are written into an EXR; \"" + outputs.image + "\" is none");
+  if (options.look.given() && outputs.png.empty() && !isPng(outputs.image))
+    throw InputError("--exposure and --tonemap are for a PNG: give --png");
+}
+
+void checkOutputs(const Outputs& outputs, const RenderOptions& options) {
+  checkDistinct({{"the image that is rendered again", options.again.image},
+                 {"the scene", options.scene},
+                 {"the image", outputs.image},
+                 {"the PNG", outputs.png},
+                 {"--stats", options.statistics},
+                 {"the checkpoint", checkpointFile(options.keep, outputs.image)}});
+  checkWritable(outputs.image);
+  if (!outputs.png.empty()) checkWritable(outputs.png);
+  checkWritableFile(options.statistics);
+  checkWritableFile(options.keep.checkpoint);
+}
+
+Scene readSceneFor(const RenderOptions& options, FilmWindow& window) {
+  const std::vector<IntegratorPlugin> integrators = integratorPlugins();
+  ReadOptions read;
+  read.defines = parseDefines(options.defines);
+  read.strictness = strictnessOf(options.permissive);
+  read.integrators = integrators;
+  read.confine = options.confine;
+  read.width = options.width;
+  read.height = options.height;
+  read.scale = options.scale;
+  read.crop = options.crop;
+  read.window = &window;
+  return readScene(options.scene, read);
+}
+
+// What of the command line decides on the picture and is nowhere else in the header.
+nlohmann::json requestOf(const RenderOptions& options) {
+  nlohmann::json defines = nlohmann::json::object();
+  for (const auto& [name, value] : parseDefines(options.defines)) defines[name] = value;
+  nlohmann::json request{{"defines", defines}};
+  const auto add = [&](const char* name, double value) {
+    if (value > 0) request[name] = value;
+  };
+  add("width", options.width);
+  add("height", options.height);
+  add("scale", options.scale);
+  add("seconds", options.budget.seconds);
+  add("samplesPerPixel", static_cast<double>(options.budget.samplesPerPixel));
+  add("mutationsPerPixel", static_cast<double>(options.budget.mutationsPerPixel));
+  if (options.permissive) request["permissive"] = true;
+  if (options.crop)
+    request["crop"] = {options.crop->x, options.crop->y, options.crop->width, options.crop->height};
+  if (!options.layers.empty()) {
+    request["aov"] = options.layers;
+    request["aovSamples"] = options.layerSamples;
+  }
+  return request;
+}
+
+ImageHeader headerOf(const Plan& plan, const RenderResult& result) {
+  ImageHeader header;
+  header.scene = plan.options.scene;
+  for (const std::string& define : plan.options.defines)
+    header.sceneDefines += (header.sceneDefines.empty() ? "" : " ") + define;
+  header.sceneDigest = plan.sceneDigest;
+  header.integrator = plan.integrator.integrator();
+  header.integratorOptions = optionText(plan.integrator);
+  header.seeds = {plan.seed};
+  header.threads = plan.threads;
+  header.wallSeconds = result.wallSeconds;
+  header.cpuSeconds = result.cpuSeconds;
+  header.samples = static_cast<double>(result.samples);
+  header.sampleUnit = result.sampleUnit;
+  header.meanLuminance = result.meanLuminance;
+  header.meanLuminanceError = result.meanLuminanceError;
+  header.interrupted = result.interrupted;
+  header.programVersion = H2MC_VERSION_STRING;
+  // What the scene's own words are in is not always UTF-8.
+  header.request =
+      requestOf(plan.options).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return header;
+}
+
+nlohmann::json statisticsOf(const Plan& plan, const RenderResult& result) {
+  nlohmann::json all = renderReport(plan.integrator, plan.seed, plan.threads, result);
+  all["programVersion"] = H2MC_VERSION_STRING;
+  all["scene"] = plan.options.scene;
+  all["image"] = plan.outputs.image;
+  return all;
+}
+
+void printSummary(const Outputs& outputs, const RenderResult& result) {
+  const double seconds = std::max(result.wallSeconds, 1e-9);
+  fmt::print(stderr, "{}{}: {} x {}, {} {} in {} ({} CPU), {} {}/s\n", outputs.image,
+             result.interrupted ? " (interrupted)" : "", result.image.width, result.image.height,
+             withSeparators(result.samples), result.sampleUnit, duration(result.wallSeconds),
+             duration(result.cpuSeconds), withPrefix(static_cast<double>(result.samples) / seconds),
+             result.sampleUnit);
+  fmt::print(stderr, "mean luminance {:.6g} +- {:.2g}\n", result.meanLuminance,
+             result.meanLuminanceError);
+  if (!result.statistics.is_object()) return;
+  nlohmann::json details = result.statistics;
+  for (const char* said : {"mean luminance", "mean luminance standard error"}) details.erase(said);
+  fmt::print(stderr, "{}", statisticsTable(details));
+}
+
+bool wants(const Plan& plan, LayerKind kind) {
+  return std::count(plan.layers.begin(), plan.layers.end(), kind) > 0;
+}
+
+std::vector<Layer> layersOf(const Plan& plan, const RenderResult& result) {
+  std::vector<Layer> layers = plan.features;
+  if (wants(plan, LayerKind::kVariance))
+    layers.push_back(makeLayer(LayerKind::kVariance, result.variance));
+  if (wants(plan, LayerKind::kMutations)) {
+    layers.push_back(makeLayer(LayerKind::kMutations, 0));
+    layers.back().values = result.counts;
+  }
+  return layers;
+}
+
+void writeImages(const Plan& plan, const RenderResult& result) {
+  const ToneMapping look = toneMapping(plan.options.look);
+  const auto writePng = [&](const std::string& file) {
+    writeImage(file, plan.options.look.given() ? toneMapped(result.image, look) : result.image);
+  };
+  if (isPng(plan.outputs.image)) return writePng(plan.outputs.image);
+  const std::vector<Layer> layers = layersOf(plan, result);
+  writeLayeredImage(plan.outputs.image, result.image,
+                    {attributesOf(headerOf(plan, result)), layers, plan.window});
+  if (!plan.outputs.png.empty()) writePng(plan.outputs.png);
+}
+
+// An image on the way, which is replaced later: that it can't be written is no reason to stop.
+void tryToWriteImages(const Plan& plan, const RenderResult& result) {
+  try {
+    writeImages(plan, result);
+  } catch (const std::exception& e) {
+    spdlog::warn("{}", e.what());
+  }
+}
+
+int write(const Plan& plan, const RenderResult& result) {
+  // The paths were right before the render: a failure now is not the user's mistake.
+  try {
+    writeImages(plan, result);
+    if (!plan.options.statistics.empty())
+      writeTextAtomically(plan.options.statistics, statisticsOf(plan, result).dump(2) + "\n");
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "h2mc: {}\n", e.what());
+    return kFailed;
+  }
+  if (!plan.options.quiet) printSummary(plan.outputs, result);
+  return result.interrupted ? kInterrupted : kSuccess;
+}
+
+// What the image that is rendered again was made from, if that is not what there is now.
+void compareWithBefore(const RenderedBefore& before, const Plan& plan) {
+  if (before.image.empty()) return;
+  if (before.sceneDigest != plan.sceneDigest)
+    spdlog::warn(
+        "\"{}\" has changed since \"{}\" was rendered, or a file that it refers to (digest {}, now "
+        "{}): the picture will be another",
+        plan.options.scene, before.image, before.sceneDigest, plan.sceneDigest);
+  if (before.programVersion != H2MC_VERSION_STRING)
+    spdlog::warn("\"{}\" was rendered by version {}, this is {}: the picture may be another",
+                 before.image, before.programVersion, H2MC_VERSION_STRING);
+}
+
+std::vector<Layer> featuresFor(const Plan& plan, const Scene& scene) {
+  FeatureRequest request;
+  for (const LayerKind kind : plan.layers)
+    if (isFeature(kind)) request.layers.push_back(kind);
+  request.samplesPerPixel = plan.options.layerSamples;
+  request.seed = plan.seed;
+  request.threads = plan.threads;
+  request.stop = &StopSignals::requested();
+  return renderFeatures(scene, request);
+}
+
+// What decides on the state of a render, besides what decides on the picture.
+nlohmann::json withState(nlohmann::json identity, const Plan& plan) {
+  std::string kept;
+  for (const LayerKind kind : {LayerKind::kVariance, LayerKind::kMutations})
+    if (wants(plan, kind)) kept += (kept.empty() ? "" : ",") + std::string(layerName(kind).name);
+  identity["layers"] = kept.empty() ? "none" : kept;
+  const std::optional<PixelRectangle>& crop = plan.options.crop;
+  identity["crop"] =
+      crop ? fmt::format("{},{},{},{}", crop->x, crop->y, crop->width, crop->height) : "none";
+  return identity;
+}
+
+}  // namespace
+
+int runRender(const RenderOptions& options) {
+  if (options.quiet) spdlog::set_level(spdlog::level::err);
+  checkBudget(options.budget);
+  const Outputs outputs = outputsOf(options);
+  checkIntegratorWish(options.integrator);
+  toneMapping(options.look);  // throws where it means nothing
+  const std::vector<LayerKind> layers = layerKinds(options.layers);
+  checkEffects(outputs, options);
+  checkOutputs(outputs, options);
+
+  FilmWindow window;
+  const Scene scene = readSceneFor(options, window);
+  if (!options.quiet) {
+    printWarnings(scene);
+    for (const std::string& note : scene.notes) fmt::print(stderr, "{}\n", note);
+  }
+  const IntegratorChoice choice = chooseIntegrator(options.integrator, scene);
+  Plan plan{options, outputs, choice.options, layers, window};
+  plan.seed = options.seed.value_or(scene.seed.value_or(0));
+  plan.threads = options.threads > 0
+                     ? options.threads
+                     : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  if (!options.quiet)
+    fmt::print(stderr, "{}: {} x {}, {}, seed {}, {} thread{}\n", options.scene, scene.film.width,
+               scene.film.height, plan.integrator.integrator(), plan.seed, plan.threads,
+               plan.threads == 1 ? "" : "s");
+
+  const nlohmann::json identity = identityOf(
+      scene, {parseDefines(options.defines), options.permissive}, plan.integrator, plan.seed);
+  plan.sceneDigest = sceneDigest(identity, options.scene);
+  compareWithBefore(options.again, plan);
+
+  // Until the files are written, so that a second signal leaves no half of one.
+  const StopSignals signals;
+  plan.features = featuresFor(plan, scene);
+  Keeper keeper(options.keep,
+                Checkpoint(checkpointFile(options.keep, outputs.image), withState(identity, plan)),
+                [&](const RenderResult& soFar) { tryToWriteImages(plan, soFar); });
+  RenderResult result;
+  {
+    ProgressDisplay display(
+        options.quiet ? ProgressDisplay::Style::kNone : ProgressDisplay::styleOfStderr(),
+        options.budget.seconds);
+    RenderRequest request;
+    request.budget = options.budget;
+    request.seed = plan.seed;
+    request.threads = plan.threads;
+    request.pixelStatistics = {wants(plan, LayerKind::kVariance),
+                               wants(plan, LayerKind::kMutations)};
+    request.stop = &StopSignals::requested();
+    request.progress = [&](const RenderProgress& progress) { display.update(progress); };
+    request.resume = keeper.resume();
+    if (options.keep.resume)
+      for (const std::string& file : {outputs.image, checkpointFile(options.keep, outputs.image)})
+        removeAbandoned(file);
+    if (keeper.wanted()) request.watch = [&](RenderInProgress& render) { keeper.look(render); };
+    try {
+      result = choice.integrator->render(scene, request);
+    } catch (const ArchiveError& e) {
+      throw InputError("cannot go on from \"" + checkpointFile(options.keep, outputs.image) +
+                       "\": " + e.what());
+    } catch (const FilmError& e) {
+      throw std::runtime_error(
+          fmt::format("\"{}\" by {}: {}", options.scene, plan.integrator.integrator(), e.what()));
+    }
+  }
+  const int exitCode = write(plan, result);
+  if (exitCode != kFailed) keeper.finish(result.interrupted);
+  return exitCode;
+}
+
+}  // namespace h2mc
