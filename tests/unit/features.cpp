@@ -81,16 +81,21 @@ TEST_F(Features, OfAWall) {
       EXPECT_EQ(at(layers, LayerKind::kId, x, y), 0);
     }
   }
-  // A pixel's place is that of its centre: positions are spread evenly over the filter. Means of ten pixels each.
+}
+
+// A pixel's place is that of its centre, where the filter is whole: positions are spread evenly over it. Means of eight
+// pixels each; half a pixel would be seen.
+TEST_F(Features, PositionsAreThoseOfPixels) {
+  const auto layers = render(Wall{kRed}.text(), 2, 64);
   double left = 0, right = 0, below = 0;
-  for (int y = 1; y < 11; ++y) {
-    left += at(layers, LayerKind::kPosition, 0, y, 0) / 10;
-    right += at(layers, LayerKind::kPosition, 4, y, 0) / 10;
+  for (int y = 2; y < 10; ++y) {
+    left += at(layers, LayerKind::kPosition, 2, y, 0) / 8;
+    right += at(layers, LayerKind::kPosition, 5, y, 0) / 8;
   }
-  const double step = (right - left) / 4;
-  EXPECT_NEAR(right, 1 + (4.5 - 8) * step, 0.06 * step);
-  for (int x = 0; x < 5; ++x) below += at(layers, LayerKind::kPosition, x, 9, 1) / 5;
-  EXPECT_NEAR(below, 2 - (9.5 - 6) * step, 0.1 * step);
+  for (int x = 2; x < 6; ++x) below += at(layers, LayerKind::kPosition, x, 9, 1) / 4;
+  const double step = (right - left) / 3;
+  EXPECT_NEAR(right, 1 + (5.5 - 8) * step, 0.15 * step);
+  EXPECT_NEAR(below, 2 - (9.5 - 6) * step, 0.15 * step);
 }
 
 // A pixel of which the wall covers a half has half its albedo, and its whole depth.
