@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "image_check.h"
+#include "render/image/metrics.h"
 
 namespace h2mc {
 namespace {
