@@ -11,7 +11,7 @@ import unittest
 import _h2mc
 
 COMMANDS = ["render", "info", "list", "diff", "gradcheck", "stress", "compare", "demo", "inspect", "merge",
-            "completion", "man"]
+            "completion", "man", "convert", "rerender"]
 
 
 def needs(*programs):

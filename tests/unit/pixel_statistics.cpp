@@ -76,14 +76,13 @@ TEST(PixelStatistics, VarianceOfIndependentMutations) {
             do x = random.uniform();
             while ((1 + x) * (2 - x) < 2.25 * random.uniformDouble());
             const double target = (1 + x) * (2 - x);
-            films[half].states.splatState(x, 0.5f, Rgbf(1 + x), 1, target, 0.5);
+            films[half].states.splat(x, 0.5f, Rgbf(1 + x), 1, target, {0.5});
             films[half].states.land(x, 0.5f, 1);
           }
           for (int i = 0; i < mutations / 4; ++i) {
             const float x = random.uniform();
             const double target = (1 + x) * (2 - x);
-            films[half].samples.splat(x, 0.5f,
-                                      Rgbf(static_cast<float>((1 + x) * 0.5 / (target + 0.5))));
+            films[half].samples.splat(x, 0.5f, Rgbf(1 + x), target, {0.5});
           }
           estimate.sort(films[half]);
           parts.push_back({&films[half], half, mutations, mutations / 4});
