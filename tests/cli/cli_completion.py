@@ -78,7 +78,7 @@ zpty -d it
     @needs("bash")
     def test_bash(self):
         self.assertEqual(self.bash(""), sorted(COMMANDS))
-        self.assertEqual(self.bash("re"), ["render"])
+        self.assertEqual(self.bash("ren"), ["render"])
         self.assertEqual(self.bash("demo", ""), ["image-copy"])
         self.assertEqual(self.bash("--v"), ["--version"])
         for command in [*([name] for name in COMMANDS), ["demo", "image-copy"]]:
