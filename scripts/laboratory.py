@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What a second of work is worth, and where the error comes from: renders of several methods, or of several programs, by
-turns, each with the same seeds.
+"""What a second of work is worth, and where the error comes from: renders of several methods, or of several programs,
+by turns, each with the same seeds.
 
     scripts/laboratory.py --scene torus --scene ring --method mmlt --method h2mc --mutations 64
     scripts/laboratory.py --method h2mc --program OLD/h2mc --program build/release/h2mc --seconds 10
@@ -78,8 +78,8 @@ def render(program, scene, method, options, seed, folder):
     name = f"{scene.name.replace('/', '_')}-{abs(hash((program, method)))}-{seed}"
     image, report = folder / f"{name}.exr", folder / f"{name}.json"
     budget = ["--time", options.seconds] if options.seconds else ["-m", options.mutations]
-    command = [program, "render", scene.file, "-i", method, "--width", scene.size[0], "--height", scene.size[1], *budget,
-               "--seed", seed, "--threads", options.threads, "-q", "-o", image, "--stats", report]
+    command = [program, "render", scene.file, "-i", method, "--width", scene.size[0], "--height", scene.size[1],
+               *budget, "--seed", seed, "--threads", options.threads, "-q", "-o", image, "--stats", report]
     result = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
     if result.returncode:
         sys.exit(f"{' '.join(str(word) for word in command)}\n{result.stderr}")
@@ -182,7 +182,8 @@ def details_of(scene, columns):
         near = column.correlation(scene)
         yield "  correlation " + ", ".join(f"{d} px {c:+.3f}" for d, c in near.items())
         shares = {"bias": column.bias(scene), **column.sources()}
-        yield "  of the error " + ", ".join(f"{name} {share:.2f}" for name, share in shares.items() if share is not None)
+        yield "  of the error " + ", ".join(f"{name} {share:.2f}" for name, share in shares.items()
+                                            if share is not None)
 
 
 def main():
