@@ -22,7 +22,7 @@ const Scene& ring() {
     for (const IntegratorFactory& f : allIntegrators()) plugins.push_back(f.plugin);
     ReadOptions options;
     options.integrators = plugins;
-    return readScene(std::string(H2MC_SOURCE_DIR) + "/scenes/ring/ring.xml", options);
+    return readScene(H2MC_SOURCE_DIR "/scenes/ring/ring.xml", options);
   }();
   return scene;
 }
