@@ -221,9 +221,6 @@ TEST(MovingScene, Mistakes) {
        "one keyframe mirrors and another does not");
   says(shape("cube", animation(R"(<transform><translate x="1"/></transform>)")), "time");
   says(shape("cube", animation("")), "without keyframes");
-  says(shape("sphere", animation(R"(<transform time="0"/>
-                                    <transform time="1"><scale x="2"/></transform>)")),
-       "ellipsoid");
   says("<emitter type=\"spot\">" + animation(R"(<transform time="0"/>
                                                 <transform time="1"><translate x="2"/></transform>)") +
            "</emitter>",

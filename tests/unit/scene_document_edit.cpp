@@ -162,8 +162,9 @@ TEST_F(DocumentEdit, ScalesOfEnvironmentsAreBrightness) {
   const auto number = [](const std::string& name, const std::string& value) {
     return "<float name=\"" + name + "\" value=\"" + value + "\"/>";
   };
-  EXPECT_DOUBLE_EQ(brightest(light("collimated", "<rgb name=\"power\" value=\"1e-9, 0, 0\"/>")),
-                   1e-9);
+  EXPECT_FLOAT_EQ(static_cast<float>(
+                      brightest(light("collimated", "<rgb name=\"power\" value=\"1e-9, 0, 0\"/>"))),
+                  1e-9f);
   for (const char* type : {"envmap", "sky", "sun", "sunsky"}) {
     EXPECT_DOUBLE_EQ(brightest(light(type, number("scale", "1e-9"))), 1e-9) << type;
     EXPECT_DOUBLE_EQ(brightest(light(type, "")), 1) << type;
