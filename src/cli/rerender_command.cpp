@@ -89,7 +89,7 @@ class Request {
 std::string sceneOf(const ImageHeader& header, const std::string& image) {
   std::error_code error;
   if (fs::exists(header.scene, error)) return header.scene;
-  const std::string beside = (fs::path(image).parent_path() / header.scene).string();
+  std::string beside = (fs::path(image).parent_path() / header.scene).string();
   if (fs::exists(beside, error)) return beside;
   throw InputError(fmt::format(
       "its scene \"{}\" is neither here nor in the image's folder; --scene says where it is now",
