@@ -18,10 +18,12 @@
 
 namespace CLI {
 class App;
-}
+class Validator;
+}  // namespace CLI
 
 namespace h2mc {
 
+struct ReadOptions;
 struct Scene;
 
 enum ExitCode {
@@ -71,6 +73,13 @@ Strictness strictnessOf(bool permissive);
 
 // The option --confine of the same commands.
 void addConfine(CLI::App& command, std::string& folder);
+
+// What these three mean to the reader, with the integrators that there are.
+ReadOptions readOptionsOf(const std::vector<std::string>& defines, bool permissive,
+                          const std::string& confine);
+
+// Of options: a finite number above 0.
+CLI::Validator positiveNumber();
 
 // The options --seed and --threads.
 void addSeed(CLI::App& command, std::uint64_t& seed, const std::string& description);

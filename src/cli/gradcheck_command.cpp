@@ -90,13 +90,8 @@ int run(const GradcheckOptions& options) {
   checkWritableFile(options.json);
   checkWritableFile(options.html);
 
-  const std::vector<IntegratorPlugin> integrators = integratorPlugins();
-  ReadOptions read;
-  read.defines = parseDefines(options.defines);
-  read.strictness = strictnessOf(options.permissive);
-  read.integrators = integrators;
-  read.confine = options.confine;
-  const Scene scene = readScene(options.scene, read);
+  const Scene scene =
+      readScene(options.scene, readOptionsOf(options.defines, options.permissive, options.confine));
   if (!options.quiet) printWarnings(scene);
 
   GradcheckSettings settings = options.settings;
@@ -156,14 +151,7 @@ void addGradcheckCommand(CLI::App& app, Run& run_) {
   command->add_option("SCENE", options->scene, "Scene file (Mitsuba XML)")
       ->required()
       ->type_name("FILE");
-  const CLI::Validator positive(
-      [](std::string& text) -> std::string {
-        char* end = nullptr;
-        const double value = std::strtod(text.c_str(), &end);
-        const bool number = !text.empty() && *end == '\0' && std::isfinite(value) && value > 0;
-        return number ? "" : "expected a number above 0, got \"" + text + "\"";
-      },
-      "");
+  const CLI::Validator positive = positiveNumber();
   auto* paths = command
                     ->add_option("-n,--paths", settings.paths,
                                  "Paths to check: half of them connections of bidirectional "

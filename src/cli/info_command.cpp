@@ -172,12 +172,8 @@ int imageInfo(const std::string& file) {
 
 int info(const InfoOptions& options) {
   if (isExr(options.scene)) return imageInfo(options.scene);
-  const std::vector<IntegratorPlugin> integrators = integratorPlugins();
-  ReadOptions read;
-  read.defines = parseDefines(options.defines);
-  read.strictness = options.strict ? Strictness::kStrict : strictnessOf(options.permissive);
-  read.integrators = integrators;
-  read.confine = options.confine;
+  ReadOptions read = readOptionsOf(options.defines, options.permissive, options.confine);
+  if (options.strict) read.strictness = Strictness::kStrict;
   const Scene scene = readScene(options.scene, read);
   printWarnings(scene);
 

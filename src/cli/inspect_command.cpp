@@ -102,13 +102,8 @@ int run(const InspectOptions& options) {
   checkIntegratorWish(wish);  // says what there is
   const MetropolisMethod& method = methodOf(wish);
 
-  const std::vector<IntegratorPlugin> integrators = integratorPlugins();
-  ReadOptions read;
-  read.defines = parseDefines(options.defines);
-  read.strictness = strictnessOf(options.permissive);
-  read.integrators = integrators;
-  read.confine = options.confine;
-  const Scene scene = readScene(options.scene, read);
+  const Scene scene =
+      readScene(options.scene, readOptionsOf(options.defines, options.permissive, options.confine));
   if (!options.quiet) printWarnings(scene);
   const OptionSet methodOptions = chooseIntegrator(wish, scene).options;
   if (settings.choice != PathChoice::kGiven &&

@@ -2,7 +2,6 @@
 // h2mc render
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <cmath>
 #include <memory>
 
 #include "cli/commands.h"
@@ -10,15 +9,6 @@
 
 namespace h2mc {
 namespace {
-
-const CLI::Validator kPositive(
-    [](std::string& text) -> std::string {
-      char* end = nullptr;
-      const double value = std::strtod(text.c_str(), &end);
-      const bool number = !text.empty() && *end == '\0' && std::isfinite(value) && value > 0;
-      return number ? "" : "expected a number above 0, got \"" + text + "\"";
-    },
-    "");
 
 // "X,Y,W,H"
 PixelRectangle rectangleOf(const std::string& text) {
@@ -42,11 +32,11 @@ PixelRectangle rectangleOf(const std::string& text) {
 
 void addBudget(CLI::App& command, RenderBudget& budget, const std::string& description) {
   auto* group = command.add_option_group("Budget", description);
-  group->add_option("-t,--time", budget.seconds, "Seconds to render for")->check(kPositive);
+  group->add_option("-t,--time", budget.seconds, "Seconds to render for")->check(positiveNumber());
   group->add_option("-s,--samples-per-pixel", budget.samplesPerPixel, "Samples a pixel")
-      ->check(kPositive);
+      ->check(positiveNumber());
   group->add_option("-m,--mutations-per-pixel", budget.mutationsPerPixel, "Mutations a pixel")
-      ->check(kPositive);
+      ->check(positiveNumber());
 }
 
 void addOutputOptions(CLI::App& command, RenderOptions& options) {
@@ -79,12 +69,12 @@ void addRenderCommand(CLI::App& app, Run& run) {
 
   auto* width =
       command->add_option("--width", options->width, "Width in pixels instead of the scene's")
-          ->check(kPositive);
+          ->check(positiveNumber());
   auto* height =
       command->add_option("--height", options->height, "Height in pixels instead of the scene's")
-          ->check(kPositive);
+          ->check(positiveNumber());
   command->add_option("--scale", options->scale, "Factor on the scene's width and height")
-      ->check(kPositive)
+      ->check(positiveNumber())
       ->excludes(width)
       ->excludes(height);
   command

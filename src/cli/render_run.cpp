@@ -93,12 +93,7 @@ void checkOutputs(const Outputs& outputs, const RenderOptions& options) {
 }
 
 Scene readSceneFor(const RenderOptions& options, FilmWindow& window) {
-  const std::vector<IntegratorPlugin> integrators = integratorPlugins();
-  ReadOptions read;
-  read.defines = parseDefines(options.defines);
-  read.strictness = strictnessOf(options.permissive);
-  read.integrators = integrators;
-  read.confine = options.confine;
+  ReadOptions read = readOptionsOf(options.defines, options.permissive, options.confine);
   read.width = options.width;
   read.height = options.height;
   read.scale = options.scale;

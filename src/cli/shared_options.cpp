@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "render/core/memory.h"
 #include "render/image/image_limits.h"
+#include "render/scene/scene_reader.h"
 
 namespace h2mc {
 namespace {
@@ -25,6 +26,10 @@ CLI::Validator wholeNumber(std::uint64_t low, std::uint64_t high) {
           ""};
 }
 
+const CLI::Validator kSeed = wholeNumber(0, std::numeric_limits<std::uint64_t>::max());
+
+}  // namespace
+
 CLI::Validator positiveNumber() {
   return {[](const std::string& text) -> std::string {
             double value = 0;
@@ -35,10 +40,6 @@ CLI::Validator positiveNumber() {
           },
           ""};
 }
-
-const CLI::Validator kSeed = wholeNumber(0, std::numeric_limits<std::uint64_t>::max());
-
-}  // namespace
 
 void addDefines(CLI::App& command, std::vector<std::string>& definitions) {
   command
@@ -75,6 +76,17 @@ void addConfine(CLI::App& command, std::string& folder) {
                   "symbolic links are followed; for scenes from strangers")
       ->check(CLI::ExistingDirectory)
       ->option_text("DIR");
+}
+
+ReadOptions readOptionsOf(const std::vector<std::string>& defines, bool permissive,
+                          const std::string& confine) {
+  static const std::vector<IntegratorPlugin> integrators = integratorPlugins();
+  ReadOptions read;
+  read.defines = parseDefines(defines);
+  read.strictness = strictnessOf(permissive);
+  read.integrators = integrators;
+  read.confine = confine;
+  return read;
 }
 
 void addSeed(CLI::App& command, std::uint64_t& seed, const std::string& description) {

@@ -61,12 +61,7 @@ int run(const StressOptions& options) {
     throw InputError("--replay: which variation's path is it? Name one with --only");
   checkDistinct({{"the scene", options.scene}, {"--json", options.json}});
   checkWritableFile(options.json);
-  const std::vector<IntegratorPlugin> integrators = integratorPlugins();
-  ReadOptions read;
-  read.defines = parseDefines(options.defines);
-  read.strictness = strictnessOf(options.permissive);
-  read.integrators = integrators;
-  read.confine = options.confine;
+  ReadOptions read = readOptionsOf(options.defines, options.permissive, options.confine);
   read.width = options.width;
   if (!options.replay.empty()) return replayPath(options, read, *variations[0]);
 

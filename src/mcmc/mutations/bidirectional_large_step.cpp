@@ -62,8 +62,7 @@ void BidirectionalLargeStep::splatProposal(const ChainState&, double weight,
                                            const Division& division, StateFilm& film) const {
   // target / sum is the probability of having picked this one.
   for (const auto& [c, target] : connections_)
-    if (target > 0)
-      film.splat(c.filmX, c.filmY, c.contribution, weight * target / sum_, target, division);
+    film.splat(c.filmX, c.filmY, c.contribution, weight * target / sum_, target, division);
 }
 
 void BidirectionalLargeStep::splatSample(const ChainState&, const Division& division,

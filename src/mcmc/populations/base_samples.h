@@ -18,7 +18,7 @@ class BaseSamples {
   // Adds samples until there are so many for these mutations, counted since the last call of restart().
   void extendTo(double samplesAMutation, long long mutations, const Division& division,
                 SampleFilm& film, NotFiniteCounts& notFinite);
-  // Mutations are counted anew; those of past ones that are owed a part of a sample are forgiven it.
+  // Mutations are counted from 0 again.
   void restart() { sinceRestart_ = 0; }
 
   // Their luminances, each an estimate of the film's mean.
