@@ -2,6 +2,7 @@
 // Renders by the Metropolis methods, their parts and what they say of them.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "image_check.h"
@@ -46,6 +47,18 @@ RenderResult render(const Scene& scene, const std::string& wish, long long perPi
   request.budget.mutationsPerPixel = perPixel;
   request.threads = 2;
   return chooseIntegrator(wish, scene).integrator->render(scene, request);
+}
+
+// Where a source has no samples it has no noise.
+TEST(Noise, OfEverySourceIsANumber) {
+  const Scene scene = lampAndWall();
+  for (const char* wish :
+       {"mlt-1997", "mmlt-2014", "h2mc", "h2mc:baseSamples=0", "lmc:baseSamples=2"})
+    for (const auto& [source, noise] : render(scene, wish, 8).statistics.at("noise").items()) {
+      EXPECT_TRUE(noise.is_number() && std::isfinite(noise.get<double>()))
+          << wish << ": " << source;
+      EXPECT_GE(noise.get<double>(), 0) << wish << ": " << source;
+    }
 }
 
 // Paths of one edge are lamps seen directly and nothing else: the wall is black.

@@ -42,6 +42,11 @@ struct NotFiniteCounts {
   std::string first;  // replays the first of them
 
   void add(const Technique& technique, const PrimarySample& sample, long long times = 1);
+  // So many of the connections of its last sample.
+  void add(const BidirectionalSampler& sampler, int times) {
+    if (times > 0)
+      add(sampler.lastNotFinite(), sampler.primarySample(sampler.lastNotFinite()), times);
+  }
   void add(const NotFiniteCounts& other);
   void archive(Archive& archive);
 };

@@ -5,19 +5,14 @@
 
 namespace h2mc {
 
-void BidirectionalLargeStep::note(int notFinite, MutationContext& context) const {
-  if (notFinite > 0)
-    context.notFinite.add(sampler_.lastNotFinite(),
-                          sampler_.primarySample(sampler_.lastNotFinite()), notFinite);
-}
-
 double BidirectionalLargeStep::wholeAround(ChainState& state, MutationContext& context) {
   auto& whole = state.derived[whole_];
   if (whole.known) return whole.value;
   double sum = 0;
-  note(sampler_.complete(target_.scene(), *context.random, state.path, minLength_,
-                         [&](const BidirectionalSampler::Connection& c) { sum += target_.of(c); }),
-       context);
+  context.notFinite.add(
+      sampler_,
+      sampler_.complete(target_.scene(), *context.random, state.path, minLength_,
+                        [&](const BidirectionalSampler::Connection& c) { sum += target_.of(c); }));
   // The path itself is among the connections; rounding may not make it vanish.
   whole = {std::max(sum, double(state.path.target)), true};
   return whole.value;
@@ -29,13 +24,12 @@ Proposal BidirectionalLargeStep::propose(ChainState& current, ChainState& propos
   connections_.clear();
   lastEstimate_ = 0;
   sum_ = 0;
-  note(sampler_.sample(target_.scene(), random, -1, -1, minLength_,
-                       [&](const BidirectionalSampler::Connection& c) {
-                         connections_.push_back({c, target_.of(c)});
-                         sum_ += connections_.back().target;
-                         lastEstimate_ += luminance(c.contribution);
-                       }),
-       context);
+  context.notFinite.add(sampler_, sampler_.sample(target_.scene(), random, -1, -1, minLength_,
+                                                  [&](const BidirectionalSampler::Connection& c) {
+                                                    connections_.push_back({c, target_.of(c)});
+                                                    sum_ += connections_.back().target;
+                                                    lastEstimate_ += luminance(c.contribution);
+                                                  }));
   if (!(sum_ > 0)) return Proposal::none();
   double u = random.uniformDouble() * sum_;
   std::size_t picked = 0;

@@ -36,7 +36,6 @@ class BidirectionalLargeStep final : public LargeStep {
  private:
   // W of the bidirectional sample around a state.
   double wholeAround(ChainState& state, MutationContext& context);
-  void note(int notFinite, MutationContext& context) const;
 
   const PathTarget& target_;
   int minLength_;

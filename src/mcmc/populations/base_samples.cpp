@@ -38,9 +38,7 @@ void BaseSamples::add(const Division& division, SampleFilm& film, NotFiniteCount
                       });
   luminance_.add(luminances);
   ++sinceRestart_;
-  if (wrong > 0)
-    notFinite.add(sampler_.lastNotFinite(), sampler_.primarySample(sampler_.lastNotFinite()),
-                  wrong);
+  notFinite.add(sampler_, wrong);
 }
 
 void BaseSamples::extendTo(double samplesAMutation, long long mutations, const Division& division,

@@ -256,9 +256,11 @@ RenderResult ChainEnsemble::result() const {
         {"mean luminance", base.mean()},
         {"standard error", base.standardError()}};
   }
-  result.statistics["noise"] = {
-      {"states", stateNoise_ / mutationsPerPixel()},
-      {"samples", sampleNoise_ / perPixel(static_cast<double>(samples().count))}};
+  const auto noise = [&](double ofOne, long long count) {
+    return count > 0 ? ofOne / perPixel(static_cast<double>(count)) : 0;
+  };
+  result.statistics["noise"] = {{"states", noise(stateNoise_, total.mutations)},
+                                {"samples", noise(sampleNoise_, samples().count)}};
   return result;
 }
 
