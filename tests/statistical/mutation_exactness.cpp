@@ -86,7 +86,10 @@ TEST_P(MethodMixture, KeepsTheTargetSlow) {
   KernelMixture kernels = makeKernels(method, world.target, world.techniques, options, 1);
   kernels.meanTarget = ExactStarts(world.target, 1, 5).meanTarget();
   // As if there were others beside them: what samples take of each path is more.
-  if (large == "bidirectional") kernels.baseSamples = 0.2;
+  if (large == "bidirectional") {
+    kernels.baseSamples = 0.2;
+    kernels.dividesByHolding = true;
+  }
   learnLeaps(kernels);
   ExactnessPlan plan;
   plan.verdicts = kVerdicts;

@@ -21,14 +21,16 @@ struct ToyMixture {
       false;  // the isotropic and the Hamiltonian share depend on the octave of the target
 };
 
-// Has shares learned that leap from each octave of the target to the next.
+// Has shares, and how long chains stay where they are, learned that leap from each octave of the target to the next.
 inline void learnLeaps(KernelMixture& kernels) {
   ChainStatistics statistics(kernels.kinds(), 2);
-  for (int octave = -kHighestOctave; octave <= kHighestOctave; ++octave)
+  for (int octave = -kHighestOctave; octave <= kHighestOctave; ++octave) {
+    statistics.departures[octaveRow(octave)] = octave % 2 == 0 ? 1000 : 250;
     for (std::size_t kind = 1; kind < 3; ++kind) {
       const bool good = (octave + static_cast<int>(kind)) % 2 == 0;
-      statistics.octaves[kind][KernelMixture::row(octave)] = {1000, good ? 600. : 200.};
+      statistics.octaves[kind][octaveRow(octave)] = {1000, good ? 600. : 200.};
     }
+  }
   kernels.learn(statistics);
 }
 

@@ -79,7 +79,7 @@ TEST(KernelMixture, LearnsWhatPaysAtEachOctave) {
   Mixture m(1, 4);
   ChainStatistics statistics(m.kernels.kinds(), 2);
   const auto set = [&](std::size_t kind, int octave, double acceptance) {
-    statistics.octaves[kind][KernelMixture::row(octave)] = {1000000, acceptance * 1000000};
+    statistics.octaves[kind][octaveRow(octave)] = {1000000, acceptance * 1000000};
   };
   set(kIsotropic, 0, 0.6);
   set(kHamiltonian, 0, 0.6);

@@ -94,8 +94,8 @@ void Chain::propose(const KernelMixture::Choice& choice, KernelMixture& kernels,
   // Both states count with their expected weights [Veach 1997, section 11.4].
   weight_ += 1 - acceptance;
   statistics.acceptance[kind][at(current_->path.technique.length())].add(acceptance);
-  statistics.octaves[kind][KernelMixture::row(kernels.octave(current_->path.target))].add(
-      acceptance);
+  const std::size_t row = octaveRow(kernels.octave(current_->path.target));
+  statistics.octaves[kind][row].add(acceptance);
   if (kind == 0) {
     const double estimate = kernels.large->lastEstimate();
     statistics.largeSteps.add(estimate);
@@ -103,6 +103,7 @@ void Chain::propose(const KernelMixture::Choice& choice, KernelMixture& kernels,
       kernels.large->splatSample(*proposed_, kernels.division(), films.samples);
   }
   if (!(acceptance > 0)) return;
+  if (kernels.departs(current_->path, proposed_->path)) statistics.departures[row] += acceptance;
   mutation.splatProposal(*proposed_, acceptance, kernels.division(proposed_->path.technique),
                          films.states);
   films.states.land(proposed_->path.filmX, proposed_->path.filmY, acceptance);

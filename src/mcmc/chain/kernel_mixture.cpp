@@ -21,9 +21,12 @@ std::vector<std::string> KernelMixture::kindNames() const {
   return names;
 }
 
-int KernelMixture::octave(double target) const {
-  if (!meanTarget) return 0;
-  return std::clamp(std::ilogb(target / *meanTarget), -kHighestOctave, kHighestOctave);
+Division KernelMixture::division() const {
+  const double mean = meanTarget.value_or(0);
+  if (!held_.empty()) return {(largeProbability + baseSamples) * mean, held_.data(), mean};
+  // Beside base samples, what is found on most scenes.
+  constexpr double kHeld = 2;
+  return {(largeProbability + kHeld * baseSamples) * mean};
 }
 
 void KernelMixture::sharesAt(const Path& state, double* shares) const {
@@ -32,7 +35,7 @@ void KernelMixture::sharesAt(const Path& state, double* shares) const {
   // What those that apply are given; of it, what those that learn have together.
   double sum = 0, together = 0, learned = 0;
   const bool learns = !learned_.empty();
-  const std::size_t ofState = learns ? row(octave(state.target)) : 0;
+  const std::size_t ofState = learns ? octaveRow(octave(state.target)) : 0;
   for (std::size_t k = 0; k < count; ++k) {
     const bool applies = small[k].mutation->applies(state);
     shares[k] = applies ? small[k].share : 0;
@@ -80,7 +83,7 @@ void KernelMixture::learn(const ChainStatistics& statistics) {
   // So many proposals with the acceptance that the kernel has over all octaves are added to each.
   constexpr double kPrior = 50;
   std::vector<std::vector<double>> shares(small.size());
-  std::vector<double> totals(2 * kHighestOctave + 1, 0);
+  std::vector<double> totals(kOctaves, 0);
   int learners = 0;
   for (std::size_t k = 0; k < small.size(); ++k) {
     small[k].mutation->learn(statistics, k + 1);
@@ -103,10 +106,17 @@ void KernelMixture::learn(const ChainStatistics& statistics) {
     for (std::size_t l = 0; l < ofKernel.size(); ++l)
       ofKernel[l] = kLeast + (1 - kLeast * learners) * ofKernel[l] / totals[l];
   learned_ = std::move(shares);
+  if (!dividesByHolding || !meanTarget) return;
+  held_.assign(kOctaves, 1);
+  for (std::size_t l = 0; l < kOctaves; ++l) {
+    long long mutations = 0;
+    for (const auto& ofKind : statistics.octaves) mutations += ofKind[l].proposed;
+    held_[l] = heldFor(mutations, statistics.departures[l]);
+  }
 }
 
 void KernelMixture::archive(Archive& archive) {
-  archive(meanTarget, baseSamples, learned_);
+  archive(meanTarget, baseSamples, learned_, held_);
   for (int kind = 0; kind < kinds(); ++kind) mutation(at(kind)).archive(archive);
 }
 

@@ -2,6 +2,7 @@
 // Which kernel a chain runs next.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -33,14 +34,14 @@ struct KernelMixture {
   std::optional<double> meanTarget;
   // Bidirectional samples beside the chains, for each mutation; only beside large steps that cover all techniques.
   double baseSamples = 0;
-  // So many mutations count as much as one of them: successive states are alike.
-  static constexpr double kMutationsASample = 2;
+  // Whether the division between states and samples knows for how long chains stay where they are.
+  bool dividesByHolding = false;
+  // The film's, in pixels.
+  float width = 1, height = 1;
 
   // For samples of density 1. In n mutations there are n * largeProbability * density samples by large steps and
   // n * baseSamples others, where there are n * target / meanTarget states.
-  Division division() const {
-    return {(largeProbability + kMutationsASample * baseSamples) * meanTarget.value_or(0)};
-  }
+  Division division() const;
   // For a technique's states.
   Division division(const Technique& technique) const {
     Division result = division();
@@ -52,11 +53,14 @@ struct KernelMixture {
   std::vector<std::string> kindNames() const;
   Mutation& mutation(std::size_t kind) { return kind ? *small[kind - 1].mutation : *large; }
 
-  // floor(log2(target / mean)) of a target > 0, between -kHighestOctave and kHighestOctave; 0 where the mean is not
-  // known.
-  int octave(double target) const;
-  // Index of an octave in tables such as ChainStatistics::octaves.
-  static std::size_t row(int octave) { return at(octave + kHighestOctave); }
+  // Of a target > 0 over the mean; 0 where the mean is not known.
+  int octave(double target) const { return meanTarget ? octaveOf(target / *meanTarget) : 0; }
+
+  // Whether one path is more than a pixel from the other.
+  bool departs(const Path& from, const Path& to) const {
+    return std::abs(to.filmX - from.filmX) * width > 1 ||
+           std::abs(to.filmY - from.filmY) * height > 1;
+  }
 
   struct Choice {
     std::size_t kind;
@@ -70,8 +74,9 @@ struct KernelMixture {
   double logRatio(const Choice& choice, const Path& proposed) const;
 
   // Sets the shares of the small steps that have a cost, at each octave, in proportion to the fourth power of
-  // acceptance over cost, each at least kLeast of what they have together, and lets every kernel learn. A function of
-  // what was counted alone. Chains may not be in the middle of a step.
+  // acceptance over cost, each at least kLeast of what they have together, and for how many mutations chains stay where
+  // they are, and lets every kernel learn. A function of what was counted alone. Chains may not be in the middle of a
+  // step.
   void learn(const ChainStatistics& statistics);
   static constexpr double kLeast = 0.01;
   // What was learned, by the kernels too, and the mean.
@@ -83,6 +88,8 @@ struct KernelMixture {
 
   // [small step][octave]: shares of what the steps with a cost have together; empty before learn().
   std::vector<std::vector<double>> learned_;
+  // [octave]: the mutations for which a chain stays within a pixel; empty before learn().
+  std::vector<double> held_;
 };
 
 }  // namespace h2mc

@@ -30,8 +30,8 @@ void Profile::add(const Profile& other) {
 ChainStatistics::ChainStatistics(int mutationKinds, int maxLength)
     : acceptance(static_cast<std::size_t>(mutationKinds),
                  std::vector<AcceptanceCount>(static_cast<std::size_t>(maxLength) + 1)),
-      octaves(static_cast<std::size_t>(mutationKinds),
-              std::vector<AcceptanceCount>(2 * kHighestOctave + 1)),
+      octaves(static_cast<std::size_t>(mutationKinds), std::vector<AcceptanceCount>(kOctaves)),
+      departures(kOctaves, 0),
       refusals(static_cast<std::size_t>(mutationKinds)),
       sums(static_cast<std::size_t>(mutationKinds)) {}
 
@@ -59,6 +59,7 @@ void ChainStatistics::add(const ChainStatistics& other) {
   };
   addAll(acceptance, other.acceptance);
   addAll(octaves, other.octaves);
+  for (std::size_t i = 0; i < kOctaves; ++i) departures[i] += other.departures[i];
   for (std::size_t kind = 0; kind < sums.size(); ++kind) {
     sums[kind].resize(std::max(sums[kind].size(), other.sums[kind].size()), 0);
     for (std::size_t i = 0; i < other.sums[kind].size(); ++i) sums[kind][i] += other.sums[kind][i];
@@ -74,14 +75,16 @@ void ChainStatistics::add(const ChainStatistics& other) {
 }
 
 void ChainStatistics::archive(Archive& archive) {
-  archive(acceptance, octaves, refusals, sums, derivatives, largeSteps, profile, mutations,
-          notFinite);
+  archive(acceptance, octaves, departures, refusals, sums, derivatives, largeSteps, profile,
+          mutations, notFinite);
 }
 
 namespace {
 
-// A row for each octave that was met: how often, and the acceptance of each kind there.
+// A row for each octave that was met: how often, the acceptance of each kind there, and for how many mutations chains
+// stay within a pixel.
 nlohmann::json octaveTable(const std::vector<std::vector<AcceptanceCount>>& octaves,
+                           const std::vector<double>& departures,
                            const std::vector<std::string>& kindNames) {
   nlohmann::json table = nlohmann::json::array();
   for (std::size_t i = 0; i < octaves[0].size(); ++i) {
@@ -94,6 +97,7 @@ nlohmann::json octaveTable(const std::vector<std::vector<AcceptanceCount>>& octa
         row[kindNames[kind]] = count.expected / static_cast<double>(count.proposed);
     }
     row["states"] = states;
+    row["mutations within a pixel"] = heldFor(states, departures[i]);
     if (states > 0) table.push_back(row);
   }
   return table;
@@ -138,7 +142,7 @@ nlohmann::json ChainStatistics::json(const std::vector<std::string>& kindNames) 
   nlohmann::json result = {
       {"mutations", mutations},
       {"mutation kinds", kinds},
-      {"acceptance by octave of the target", octaveTable(octaves, kindNames)},
+      {"acceptance by octave of the target", octaveTable(octaves, departures, kindNames)},
       {"derivatives", derivatives.json()},
       {"time shares",
        {{"tracing", share(profile.rays)},

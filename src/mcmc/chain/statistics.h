@@ -2,6 +2,7 @@
 // What a chain counts, and how it is told.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -50,15 +51,19 @@ struct Profile {
   void add(const Profile& other);
 };
 
-// The octave of a state's target, floor(log2(target / mean)), lies between minus and plus this.
-inline constexpr int kHighestOctave = 20;
+// For how many of so many mutations a chain stays before it departs, at least 1. One that nobody has seen depart counts as
+// one that is about to.
+inline double heldFor(long long mutations, double departures) {
+  return std::max(static_cast<double>(mutations) / (departures + 1), 1.);
+}
 
 // One group of chains' tallies, merged in the groups' order.
 struct ChainStatistics {
   ChainStatistics(int mutationKinds, int maxLength);
 
-  std::vector<std::vector<AcceptanceCount>> acceptance;    // [kind][path length]
-  std::vector<std::vector<AcceptanceCount>> octaves;       // [kind][KernelMixture::row(octave)]
+  std::vector<std::vector<AcceptanceCount>> acceptance;  // [kind][path length]
+  std::vector<std::vector<AcceptanceCount>> octaves;     // [kind][octaveRow(octave)]
+  std::vector<double> departures;  // [octaveRow(octave)]: moves by more than a pixel, as expected
   std::vector<std::array<long long, kRefusals>> refusals;  // [kind][Refusal]: nothing proposed
   std::vector<std::vector<double>> sums;  // [kind]: what a mutation adds up to learn from
   DerivativeCounts derivatives;
