@@ -26,3 +26,17 @@ find_package(spdlog CONFIG REQUIRED)
 find_package(nlohmann_json CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
 find_package(Boost 1.74 REQUIRED)  # headers alone: Student's distribution
+
+# What the program can do without: pages while a render goes on (--serve). Debian's cpp-httplib comes with pkg-config's
+# file alone, which says what the library was compiled with; others have CMake's.
+find_package(httplib CONFIG QUIET)
+find_package(PkgConfig QUIET)
+if(NOT TARGET httplib::httplib AND PKG_CONFIG_FOUND)
+  pkg_check_modules(H2MC_HTTPLIB QUIET IMPORTED_TARGET cpp-httplib)
+  if(H2MC_HTTPLIB_FOUND)
+    add_library(httplib::httplib ALIAS PkgConfig::H2MC_HTTPLIB)
+  endif()
+endif()
+if(NOT TARGET httplib::httplib)
+  message(STATUS "No --serve: it needs the Debian packages libcpp-httplib-dev and pkg-config")
+endif()

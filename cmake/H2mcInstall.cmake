@@ -5,6 +5,9 @@
 if(TARGET h2mc)
   install(TARGETS h2mc RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
   install(TARGETS h2mc_oiio LIBRARY DESTINATION "${H2MC_MODULE_INSTALL_DIR}")
+  if(TARGET h2mc_serve)
+    install(TARGETS h2mc_serve LIBRARY DESTINATION "${H2MC_MODULE_INSTALL_DIR}")
+  endif()
 
   # What the program prints of itself, when it is installed.
   set(printed "${CMAKE_BINARY_DIR}/printed")

@@ -3,23 +3,27 @@
 
 say() { printf 'h2mc: %s\n' "$*" >&2; }
 
-# ensure_packages build|test...: installs what scripts/packages.txt lists for these purposes and the machine lacks.
+# ensure_packages build|test...: installs what scripts/packages.txt lists for these purposes and the machine lacks. With
+# build alone, wishes are no reason to install anything, but come along.
 # Asks dpkg each time: that takes 20 ms, and unlike a stamp it is never wrong.
 ensure_packages() {
   command -v dpkg-query >/dev/null || return 0  # not a Debian: CMake says what is missing
-  local purpose package instead wanted=() missing=()
+  local purpose package instead wanted=() missing=() wishes=" " needed=0
   while read -r purpose package instead; do
-    [[ " $* " == *" $purpose "* ]] || continue
+    [[ " $* wish " == *" $purpose "* ]] || continue
     [[ -n $instead ]] && command -v "$instead" >/dev/null && continue
     wanted+=("$package")
+    [[ $purpose == wish && $* == build ]] && wishes+="$package "
   done <"$root/scripts/packages.txt"
   ((${#wanted[@]})) || return 0
   local present
   present=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null || true)
   for package in "${wanted[@]}"; do
-    grep -qxF "installed $package" <<<"$present" || missing+=("$package")
+    grep -qxF "installed $package" <<<"$present" && continue
+    missing+=("$package")
+    [[ $wishes == *" $package "* ]] || needed=1
   done
-  ((${#missing[@]})) || return 0
+  ((needed)) || return 0
 
   local as_root=()
   if ((EUID != 0)); then

@@ -21,6 +21,9 @@ using nlohmann::json;
 // The file: this, the identity as JSON, the render's state, all as Archive writes it, and the CRC-32 of all before.
 constexpr std::string_view kMagic = "h2mc checkpoint 1\n";
 
+// In the identity, where it is so.
+constexpr const char* kKeepsVariance = "keeps variance";
+
 std::string plain(const json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
@@ -102,6 +105,7 @@ Archive& Checkpoint::open() {
   const json there = json::parse(text, nullptr, false);
   if (!there.is_object()) throw fail("is damaged");
   const std::vector<std::string> different = differences(there, identity_);
+  keepsVariance_ = there.value(kKeepsVariance, false);
   if (different.empty()) return *archive_;
   std::string all;
   for (const std::string& one : different) all += (all.empty() ? "" : "; ") + one;
@@ -113,7 +117,9 @@ void Checkpoint::save(RenderInProgress& render) const {
   try {
     std::ofstream stream(file.temporaryPath(), std::ios::binary);
     Archive archive(stream);
-    std::string magic(kMagic), text = identity_.dump();
+    json identity = identity_;
+    if (keepsVariance_) identity[kKeepsVariance] = true;
+    std::string magic(kMagic), text = identity.dump();
     archive(magic, text);
     render.save(archive);
     std::uint32_t sum = archive.checksum();

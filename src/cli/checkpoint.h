@@ -23,12 +23,17 @@ class Checkpoint {
   // Opens the file and returns where to read a render's state from, which lives as long as this does. Throws InputError
   // if it is damaged or no checkpoint, or one of another render: then the message says what differs.
   Archive& open();
+  // Whether the render whose state it is has kept its variance for who looks on. That decides on the state, but not on
+  // the picture: who goes on from it keeps to it. Of open()'s file, unless it was set.
+  bool keepsVariance() const { return keepsVariance_; }
+  void setKeepsVariance(bool keeps) { keepsVariance_ = keeps; }
   // Replaces the file, whole or not at all. Throws std::runtime_error, what() being the whole message.
   void save(RenderInProgress& render) const;
 
  private:
   std::string file_;
   nlohmann::json identity_;
+  bool keepsVariance_ = false;
   std::ifstream stream_;
   std::unique_ptr<Archive> archive_;
 };

@@ -68,6 +68,11 @@ Archive* Keeper::resume() {
   return &archive;
 }
 
+bool Keeper::keepsVariance(bool want) {
+  if (!saved_) checkpoint_.setKeepsVariance(want);
+  return checkpoint_.keepsVariance();
+}
+
 bool Keeper::isDue(const RenderInProgress& render) const {
   if (!(every_ > 0) || savedLast_) return false;
   const bool stopped = StopSignals::requested();

@@ -36,6 +36,9 @@ class Keeper {
 
   // Where to go on from; null: from the beginning. Throws InputError.
   Archive* resume();
+  // To be called after resume(): whether the render keeps its variance for who looks on, if they `want` it. One that
+  // goes on does what it did before.
+  bool keepsVariance(bool want);
   // Whether RenderRequest::watch is wanted at all.
   bool wanted() const { return every_ > 0 || options_.saveEvery > 0; }
   void look(RenderInProgress& render);

@@ -43,6 +43,7 @@ void addOutputOptions(CLI::App& command, RenderOptions& options) {
   command.add_flag("--png", options.png, "Write a PNG (sRGB) beside the image as well");
   addLookOptions(command, options.look);
   addKeepOptions(command, options.keep);
+  addLiveOptions(command, options.live);
   command.add_option("--stats", options.statistics, "JSON file to write the statistics to")
       ->type_name("FILE");
   command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
@@ -109,6 +110,7 @@ void addRenderCommand(CLI::App& app, Run& run) {
       "\n"
       "Examples:\n"
       "  h2mc render scene.xml -o scene.exr --png --time 60\n"
+      "  h2mc render scene.xml -o scene.exr --time 600 --serve 8000 --display 127.0.0.1:14158\n"
       "  h2mc render scene.xml -i mmlt:maxDepth=8 --mutations-per-pixel 256 -D width=512");
   command->callback([options, &run] { run = [options] { return runRender(*options); }; });
 }

@@ -247,6 +247,18 @@ std::vector<Layer> featuresFor(const Plan& plan, const Scene& scene) {
   return renderFeatures(scene, request);
 }
 
+// For the page of --serve.
+nlohmann::json factsOf(const Plan& plan) {
+  return {{"scene", plan.options.scene},
+          {"image", plan.outputs.image},
+          {"integrator", plan.integrator.integrator()},
+          {"options", optionText(plan.integrator)},
+          {"seed", std::to_string(plan.seed)},
+          {"threads", plan.threads},
+          {"secondsGiven", plan.options.budget.seconds},
+          {"programVersion", H2MC_VERSION_STRING}};
+}
+
 // What decides on the state of a render, besides what decides on the picture.
 nlohmann::json withState(nlohmann::json identity, const Plan& plan) {
   std::string kept;
@@ -270,6 +282,7 @@ int runRender(const RenderOptions& options) {
   const std::vector<LayerKind> layers = layerKinds(options.layers);
   checkEffects(outputs, options);
   checkOutputs(outputs, options);
+  LiveView live(options.live, outputs.image);
 
   FilmWindow window;
   const Scene scene = readSceneFor(options, window);
@@ -287,6 +300,8 @@ int runRender(const RenderOptions& options) {
     fmt::print(stderr, "{}: {} x {}, {}, seed {}, {} thread{}\n", options.scene, scene.film.width,
                scene.film.height, plan.integrator.integrator(), plan.seed, plan.threads,
                plan.threads == 1 ? "" : "s");
+  if (!options.quiet && !live.address().empty())
+    fmt::print(stderr, "to be watched at {}\n", live.address());
 
   const nlohmann::json identity = identityOf(
       scene, {parseDefines(options.defines), options.permissive}, plan.integrator, plan.seed);
@@ -295,6 +310,7 @@ int runRender(const RenderOptions& options) {
 
   // Until the files are written, so that a second signal leaves no half of one.
   const StopSignals signals;
+  live.describe(factsOf(plan));
   plan.features = featuresFor(plan, scene);
   Keeper keeper(options.keep,
                 Checkpoint(checkpointFile(options.keep, outputs.image), withState(identity, plan)),
@@ -308,15 +324,24 @@ int runRender(const RenderOptions& options) {
     request.budget = options.budget;
     request.seed = plan.seed;
     request.threads = plan.threads;
-    request.pixelStatistics = {wants(plan, LayerKind::kVariance),
-                               wants(plan, LayerKind::kMutations)};
     request.stop = &StopSignals::requested();
-    request.progress = [&](const RenderProgress& progress) { display.update(progress); };
+    request.progress = [&](const RenderProgress& progress) {
+      display.update(progress);
+      live.progress(progress);
+    };
     request.resume = keeper.resume();
+    const bool variance = wants(plan, LayerKind::kVariance);
+    request.pixelStatistics.variance =
+        keeper.keepsVariance(live.wantsVariance() && !variance) || variance;
+    request.pixelStatistics.counts = wants(plan, LayerKind::kMutations);
     if (options.keep.resume)
       for (const std::string& file : {outputs.image, checkpointFile(options.keep, outputs.image)})
         removeAbandoned(file);
-    if (keeper.wanted()) request.watch = [&](RenderInProgress& render) { keeper.look(render); };
+    if (keeper.wanted() || live.wanted())
+      request.watch = [&](RenderInProgress& render) {
+        keeper.look(render);
+        live.look(render);
+      };
     try {
       result = choice.integrator->render(scene, request);
     } catch (const ArchiveError& e) {
@@ -329,6 +354,7 @@ int runRender(const RenderOptions& options) {
   }
   const int exitCode = write(plan, result);
   if (exitCode != kFailed) keeper.finish(result.interrupted);
+  live.finish(result, exitCode != kFailed);
   return exitCode;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/keeper.h"
+#include "cli/live_view.h"
 #include "cli/look_options.h"
 #include "render/image/film_window.h"
 #include "render/integrator/integrator.h"
@@ -37,6 +38,7 @@ struct RenderOptions {
   int layerSamples = 16;            // camera rays a pixel, for those that are made by such
   LookOptions look;
   KeepOptions keep;
+  LiveOptions live;
   bool permissive = false;
   bool quiet = false, png = false;
   RenderedBefore again;

@@ -66,4 +66,10 @@ StopSignals::~StopSignals() {
 
 const std::atomic<bool>& StopSignals::requested() { return stopRequested; }
 
+void StopSignals::request() {
+  long long none = 0;
+  firstSignal.compare_exchange_strong(none, now());
+  stopRequested = true;
+}
+
 }  // namespace h2mc

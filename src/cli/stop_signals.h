@@ -18,6 +18,8 @@ class StopSignals {
 
   // Becomes true when the render is to stop.
   static const std::atomic<bool>& requested();
+  // What a first signal does.
+  static void request();
 };
 
 }  // namespace h2mc

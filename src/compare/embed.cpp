@@ -56,6 +56,29 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
   return text;
 }
 
+nlohmann::json embeddedValues(std::span<const float> values) {
+  float largest = 0;
+  for (const float v : values)
+    if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
+  const int exponent = largest > 0 ? std::ilogb(largest) - 14 : 0;
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(values.size() * 2);
+  for (const float v : values) {
+    const std::uint16_t half = halfBits(std::ldexp(v, -exponent));
+    bytes.push_back(static_cast<std::uint8_t>(half & 255));
+    bytes.push_back(static_cast<std::uint8_t>(half >> 8));
+  }
+  return {{"exponent", exponent}, {"data", base64(bytes)}};
+}
+
+nlohmann::json embeddedPixels(const Image& image) {
+  std::vector<float> values;
+  values.reserve(image.pixels.size() * 3);
+  for (const Rgbf& p : image.pixels)
+    for (int c = 0; c < 3; ++c) values.push_back(p[c]);
+  return embeddedValues(values);
+}
+
 std::string base64Srgb(const Image& image, float scale) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(image.pixels.size() * 3);

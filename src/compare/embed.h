@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,12 @@ namespace h2mc {
 std::uint16_t halfBits(float value);
 
 std::string base64(const std::vector<std::uint8_t>& bytes);
+
+// Values times 2^-exponent as half floats in base64, {exponent, data}: the largest is just below the largest half, so
+// that dark pictures do not fall among the denormal numbers. page/pixels.js reads it. Pixels: three values each, row by
+// row from the top.
+nlohmann::json embeddedValues(std::span<const float> values);
+nlohmann::json embeddedPixels(const Image& image);
 
 // The picture times `scale` as sRGB bytes in base64, three a pixel, row by row from the top.
 std::string base64Srgb(const Image& image, float scale);

@@ -42,11 +42,14 @@ class Page(_h2mc.Test):
 
     def open(self, name):
         """A page in the test's folder."""
+        self.visit("file://" + self.path(name))
+
+    def visit(self, address):
         if self.start.__func__ is firefox and not _firefox.PROGRAM:
             raise unittest.SkipTest("not tried in Firefox: this needs the Debian package firefox-esr")
         self.driver = self.start()
         self.addCleanup(self.driver.quit)
-        self.driver.get("file://" + self.path(name))
+        self.driver.get(address)
 
     def all(self, selector):
         return self.driver.find_elements(By.CSS_SELECTOR, selector)
@@ -62,6 +65,9 @@ class Page(_h2mc.Test):
             f"const c = document.querySelector('{selector}');"
             "return c.getContext('2d').getImageData(0, 0, c.width, c.height).data.reduce((a, b) => a + b, 0)")
 
+    def loaded(self):
+        """Returns when the page has all that it shows."""
+
     def no_errors(self):
         if self.start.__func__ is chromium:  # Firefox does not tell
             self.assertEqual([entry["message"] for entry in self.driver.get_log("browser")
@@ -75,6 +81,7 @@ class Page(_h2mc.Test):
         else:
             self.driver.set_window_size(500, 844)  # no window of Firefox is narrower than 450
         self.driver.refresh()
+        self.loaded()
         wide, window = self.driver.execute_script(
             "return [document.documentElement.scrollWidth, document.documentElement.clientWidth]")
         self.assertLessEqual(window, 500)

@@ -175,6 +175,33 @@ class Test(unittest.TestCase):
             attributes[key] = value
         return attributes, data[position + 1:]
 
+    def pixel_rows(self, name):
+        """Rows of (r, g, b) of an EXR as h2mc writes them: floats in zip-compressed blocks of 16 rows."""
+        attributes, data = self.read_exr(name)
+        left, top, right, bottom = struct.unpack("<4i", attributes["dataWindow"])
+        width, height = right - left + 1, bottom - top + 1
+        start = os.path.getsize(self.path(name)) - len(data)  # offsets count from the file's beginning
+        rows = [None] * height
+        for offset in struct.unpack_from(f"<{(height + 15) // 16}Q", data):
+            first, size = struct.unpack_from("<2i", data, offset - start)
+            packed = data[offset - start + 8:offset - start + 8 + size]
+            count = min(16, bottom + 1 - first)
+            if size == count * width * 12:
+                raw = packed
+            else:
+                raw = bytearray(zlib.decompress(packed))
+                for i in range(1, len(raw)):
+                    raw[i] = (raw[i - 1] + raw[i] - 128) & 255
+                half = (len(raw) + 1) // 2
+                joined = bytearray(len(raw))
+                joined[0::2], joined[1::2] = raw[:half], raw[half:]
+                raw = bytes(joined)
+            for row in range(count):
+                line = struct.unpack_from(f"<{3 * width}f", raw, row * width * 12)
+                # Channels lie one after the other in the order of their names: B, G, R.
+                rows[first - top + row] = list(zip(line[2 * width:], line[width:2 * width], line[:width]))
+        return rows
+
 
 def main():
     if not BINARY:

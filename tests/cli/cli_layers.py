@@ -21,6 +21,7 @@ BELOW = {
     "demo": ["compare"],
     "inspect": ["compare"],
     "cli": ["check", "demo", "inspect"],
+    "serve": ["cli"],
     "python": ["mcmc"],
 }
 
