@@ -19,8 +19,8 @@ class Page(_browser.Page):
         super().setUp()
         self.write("scene.xml", _h2mc.SCENE)
         self.process = subprocess.Popen(
-            [_h2mc.BINARY, "render", "scene.xml", "-i", _h2mc.quick("h2mc"), "-t", "600", "--width", "96", "--height",
-             "64", "-o", "a.exr", "--serve", "0"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+            [_h2mc.BINARY, "render", "scene.xml", "-i", _h2mc.quick("h2mc"), "-m", "100000000", "--width", "96",
+             "--height", "64", "-o", "a.exr", "--serve", "0"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
         self.addCleanup(self.process.stderr.close)
         self.addCleanup(self.process.wait)
         self.addCleanup(self.process.kill)

@@ -113,7 +113,8 @@ function drawNumbers() {
   const rows = [["time", duration(news.seconds)]];
   if (news.rate > 0) rows.push(["rate", `${withPrefix(news.rate)} ${news.unit}/s`]);
   if (news.number) {
-    rows.push([news.sampleUnit, `${withPrefix(news.samples)}, ${short(news.samples / (news.width * news.height))} a pixel`]);
+    const aPixel = news.samples / (news.width * news.height);
+    rows.push([news.sampleUnit, `${withPrefix(news.samples)}, ${short(aPixel)} a pixel`]);
     rows.push(["mean luminance", `${short(news.meanLuminance, 6)} ± ${short(news.meanLuminanceError, 2)}`]);
     if (news.notFinite > 0) rows.push(["not finite", String(news.notFinite)]);
   }
