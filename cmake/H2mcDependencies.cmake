@@ -27,7 +27,9 @@ find_package(nlohmann_json CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
 find_package(Boost 1.74 REQUIRED)  # headers alone: Student's distribution
 
-# What the program can do without: pages while a render goes on (--serve). Debian's cpp-httplib comes with pkg-config's
+# What the program can do without.
+
+# Pages while a render goes on (--serve). Debian's cpp-httplib comes with pkg-config's
 # file alone, which says what the library was compiled with; others have CMake's.
 find_package(httplib CONFIG QUIET)
 find_package(PkgConfig QUIET)
@@ -39,4 +41,12 @@ if(NOT TARGET httplib::httplib AND PKG_CONFIG_FOUND)
 endif()
 if(NOT TARGET httplib::httplib)
   message(STATUS "No --serve: it needs the Debian packages libcpp-httplib-dev and pkg-config")
+endif()
+
+# Figures for papers (h2mc compare).
+if(PKG_CONFIG_FOUND)
+  pkg_check_modules(H2MC_CAIRO QUIET IMPORTED_TARGET cairo-pdf cairo-svg)
+endif()
+if(NOT H2MC_CAIRO_FOUND)
+  message(STATUS "No figures by h2mc compare: they need the Debian packages libcairo2-dev and pkg-config")
 endif()

@@ -5,9 +5,11 @@
 if(TARGET h2mc)
   install(TARGETS h2mc RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
   install(TARGETS h2mc_oiio LIBRARY DESTINATION "${H2MC_MODULE_INSTALL_DIR}")
-  if(TARGET h2mc_serve)
-    install(TARGETS h2mc_serve LIBRARY DESTINATION "${H2MC_MODULE_INSTALL_DIR}")
-  endif()
+  foreach(module h2mc_serve h2mc_figures)
+    if(TARGET ${module})
+      install(TARGETS ${module} LIBRARY DESTINATION "${H2MC_MODULE_INSTALL_DIR}")
+    endif()
+  endforeach()
 
   # What the program prints of itself, when it is installed.
   set(printed "${CMAKE_BINARY_DIR}/printed")

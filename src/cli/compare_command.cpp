@@ -14,10 +14,13 @@
 #include "cli/progress_display.h"
 #include "cli/stop_signals.h"
 #include "compare/external.h"
+#include "compare/figure_file.h"
 #include "compare/page.h"
+#include "compare/paper.h"
 #include "compare/reference.h"
 #include "compare/rendered_reference.h"
 #include "compare/runs.h"
+#include "compare/tables.h"
 #include "h2mc_version.h"
 #include "render/image/atomic_file.h"
 #include "render/image/image_io.h"
@@ -111,7 +114,13 @@ void writeAll(const ComparisonPlan& plan, const std::vector<SceneResults>& resul
   };
   write("results.csv", resultsCsv(results, plan));
   write("results.json", resultsJson(results, plan).dump(1) + "\n");
-  write("results.tex", latexTable(results, plan));
+  write("errors.csv", errorsCsv(results));
+  write("summary.csv", summaryCsv(results));
+  if (!canDrawFigures())
+    spdlog::warn("no figures: this build was made without cairo (libcairo2-dev, pkg-config)");
+  const std::vector<PaperFile> paper = paperFiles(results, plan, references);
+  std::filesystem::create_directories(plan.folder / "figures");
+  for (const PaperFile& file : paper) write(file.name.c_str(), file.bytes);
   write("index.html", comparisonPage(results, plan, references, embedded));
 }
 
@@ -185,7 +194,7 @@ int compare(const CompareOptions& options) {
   }
   fmt::print("{}", textTable(results, plan));
   if (!options.quiet)
-    fmt::print(stderr, "{}: the page; results.csv, results.json and results.tex beside it\n",
+    fmt::print(stderr, "{}: the page; tables, figures and LaTeX beside it\n",
                (plan.folder / "index.html").string());
   return kSuccess;
 }
@@ -264,7 +273,9 @@ void addCompareCommand(CLI::App& app, Run& run) {
       "command\n"
       "goes on where it stopped; finished runs are not repeated. The folder holds index.html "
       "(open\n"
-      "it in a browser), results.csv, results.json, results.tex, and all images under runs.\n"
+      "it in a browser), results.csv, errors.csv, summary.csv, results.json, paper.tex with a "
+      "table\n"
+      "and figures (SVG and PDF, under figures), and all images under runs.\n"
       "\n"
       "External images: FOLDER/SCENE/*.exr, or FOLDER/*SCENE*.exr; their time is the attribute\n"
       "wallSeconds or stands in the name: ring-2.5s-a.exr.\n"

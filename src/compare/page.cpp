@@ -2,6 +2,7 @@
 #include "compare/page.h"
 
 #include "compare/embed.h"
+#include "compare/insets.h"
 #include "compare/page_files.h"
 #include "render/image/image_io.h"
 
@@ -16,6 +17,7 @@ std::string comparisonPage(const std::vector<SceneResults>& results, const Compa
     json& scene = data["scenes"][s];
     if (images != EmbeddedImages::kNone)
       scene["reference"]["pixels"] = embeddedPixels(references[s]);
+    std::vector<Image> compared;
     for (std::size_t m = 0; m < results[s].runs.methods.size(); ++m) {
       const MethodRuns& method = results[s].runs.methods[m];
       json& repeats = scene["methods"][m]["repeats"];
@@ -27,9 +29,14 @@ std::string comparisonPage(const std::vector<SceneResults>& results, const Compa
       for (std::size_t k = 0; k < method.repeats.front().points.size(); ++k) {
         const Point& point = method.repeats.front().points[k];
         if (images == EmbeddedImages::kLast && &point != last) continue;
-        repeats[0]["points"][k]["pixels"] = embeddedPixels(readImage(point.image.string()));
+        Image image = readImage(point.image.string());
+        repeats[0]["points"][k]["pixels"] = embeddedPixels(image);
+        if (&point == last) compared.push_back(std::move(image));
       }
     }
+    scene["insets"] = json::array();
+    for (const PixelRectangle& r : whereTheyDiffer(compared, references[s], kInsets))
+      scene["insets"].push_back({{"x", r.x}, {"y", r.y}, {"width", r.width}, {"height", r.height}});
   }
   return filledPage(page::kHtml, page::kStyle, page::kScript, data);
 }

@@ -18,16 +18,19 @@ struct SceneResults {
 // Precondition: measured.
 SceneResults resultsOf(SceneRuns runs, const ComparisonPlan& plan, const Image& reference);
 
-// One row for each image: scene, method, repeat, mark, time, mutations, errors, file.
-std::string resultsCsv(const std::vector<SceneResults>& results, const ComparisonPlan& plan);
+// For the main axis, the main metric first.
+const std::vector<Summary>& mainSummaries(const SceneResults& scene, const ComparisonPlan& plan);
+
+// The place where a summary compares, in words: "40 s".
+std::string position(const Summary& summary);
+
+// An image's path as the results have it: relative to the comparison's folder, where it lies below that.
+std::string shownPath(const std::filesystem::path& path, const ComparisonPlan& plan);
 
 // Everything. Numbers that are infinite are the text "inf", those that are not known null.
 nlohmann::json resultsJson(const std::vector<SceneResults>& results, const ComparisonPlan& plan);
 
-// A table for a paper, for the main metric: scenes in groups, a row for each method. Needs booktabs.
-std::string latexTable(const std::vector<SceneResults>& results, const ComparisonPlan& plan);
-
-// The same for the terminal.
+// The ranking for the terminal, for the main metric.
 std::string textTable(const std::vector<SceneResults>& results, const ComparisonPlan& plan);
 
 // "AMD EPYC ..., 2 threads", from the system.

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 #include "render/core/index.h"
+
 namespace h2mc {
 namespace {
 
@@ -140,7 +143,20 @@ void rank(Summary& summary, const std::vector<MethodLines>& lines) {
       method.verdict = "one repeat: nothing can be shown";
     else
       method.verdict = method.pValue < kLevel ? "worse" : "no difference shown";
+    // Another one with less scatter may be shown to be better than it: that says nothing of the best.
+    if (method.present && method.verdict != "worse") method.rank = 1;
   }
+}
+
+void sortMethods(Summary& summary) {
+  summary.order.resize(summary.methods.size());
+  std::iota(summary.order.begin(), summary.order.end(), std::size_t{0});
+  const auto key = [&](std::size_t i) {
+    const MethodSummary& m = summary.methods[i];
+    return std::tuple(!m.present, m.rank, m.present ? m.error.value : 0.0);
+  };
+  std::stable_sort(summary.order.begin(), summary.order.end(),
+                   [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
 }
 
 }  // namespace
@@ -168,7 +184,10 @@ Summary summarise(const SceneRuns& runs, const ComparisonPlan& plan, const std::
       summary.best = static_cast<int>(summary.methods.size());
     summary.methods.push_back(std::move(result));
   }
-  if (summary.best < 0) return summary;
+  if (summary.best < 0) {
+    sortMethods(summary);
+    return summary;
+  }
   const MethodLines& best = lines[at(summary.best)];
   for (std::size_t i = 0; i < lines.size(); ++i) {
     MethodSummary& method = summary.methods[i];
@@ -181,6 +200,7 @@ Summary summarise(const SceneRuns& runs, const ComparisonPlan& plan, const std::
     method.timeRatio = timeRatio(lines[i], best);
   }
   rank(summary, lines);
+  sortMethods(summary);
   return summary;
 }
 

@@ -26,7 +26,9 @@ struct MethodSummary {
   // Welch's test of the logarithms against the best one, Holm-adjusted over all pairs; not a number
   // with less than two repeats.
   double pValue = std::numeric_limits<double>::quiet_NaN();
-  int rank = 0;         // 1 + the number of methods shown to be better; 0: not present
+  // 1: the best, and those not shown to be worse than it; else 1 + the number of methods shown to be better; 0: not
+  // present.
+  int rank = 0;
   std::string verdict;  // "best", "worse", "no difference shown", ...
 };
 
@@ -36,6 +38,7 @@ struct Summary {
   double position = 0;
   std::vector<MethodSummary> methods;  // in the order of the runs
   int best = -1;                       // index of the smallest error
+  std::vector<std::size_t> order;  // of the methods: by rank, then by error; those not present last
 };
 
 // On the axis of time at the last mark; of a comparison in mutations at the longest time that all of

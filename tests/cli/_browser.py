@@ -86,6 +86,10 @@ class Page(_h2mc.Test):
             "return [document.documentElement.scrollWidth, document.documentElement.clientWidth]")
         self.assertLessEqual(window, 500)
         self.assertLessEqual(wide, window)
+        hidden = self.driver.execute_script(
+            "return [...document.querySelectorAll('.scroll')].filter((e) => e.scrollWidth > e.clientWidth + 1)"
+            ".map((e) => e.textContent.slice(0, 80))")
+        self.assertEqual(hidden, [], "tables that don't fit")
 
 
 def main(page):

@@ -11,6 +11,7 @@ import signal
 import struct
 import subprocess
 import time
+import xml.etree.ElementTree
 
 import _h2mc
 
@@ -164,6 +165,59 @@ class Compare(_h2mc.Test):
         # Pixels known to 100 %, their mean to a few.
         shutil.copy(self.path("bright.exr"), self.path("bright_stderr.exr"))
         self.assertNotIn("BRIGHTNESS OFF", self.succeeds(*command, "uncertain").stdout)
+
+    def test_for_papers(self):
+        self.reference()
+        shutil.copy(self.path("box.xml"), self.path("a_box & 50%.xml"))
+        self.succeeds("compare", "box.xml", "a_box & 50%.xml", "-i", self.METHODS + ",bdpt", *self.WORK, "-r",
+                      "reference.exr", "-o", "out")
+        wide = self.rows()
+        with open(self.path("out/errors.csv"), encoding="utf-8") as stream:
+            tidy = list(csv.DictReader(stream))
+        metrics = ("relmse", "relmse-trimmed", "mse", "mse-trimmed", "mape", "smape", "hdr-flip")
+        self.assertEqual(len(tidy), len(wide) * len(metrics))
+        found = {(r["scene"], r["method"], r["repeat"], r["mark"], r["metric"]): r["value"] for r in tidy}
+        for row in wide:
+            for metric in metrics:
+                self.assertEqual(found[row["scene"], row["method"], row["repeat"], row["mark"], metric], row[metric])
+        with open(self.path("out/summary.csv"), encoding="utf-8") as stream:
+            summary = list(csv.DictReader(stream))
+        self.assertEqual(len(summary), 2 * 2 * len(metrics) * 3)  # scenes, axes, metrics, methods
+        for group in range(0, len(summary), 3):
+            rows = summary[group:group + 3]
+            self.assertEqual(rows[0]["verdict"], "best")
+            keys = [(int(row["rank"]), float(row["error"])) for row in rows]
+            self.assertEqual(keys, sorted(keys))
+            for row in rows:  # rank and verdict say the same
+                self.assertEqual(int(row["rank"]) > 1, row["verdict"] == "worse", row)
+
+        if not os.path.exists(os.path.join(os.path.dirname(_h2mc.BINARY), "modules", "libh2mc_figures.so")):
+            self.assertEqual(os.listdir(self.path("out/figures")), [])
+            self.skipTest("no figures: this build was made without libcairo2-dev")
+        names = sorted(os.listdir(self.path("out/figures")))
+        self.assertEqual(len(names), 2 * 3 * 2)  # scenes, kinds, formats
+        for name in names:
+            with open(self.path("out/figures/" + name), "rb") as stream:
+                data = stream.read()
+            if name.endswith(".pdf"):
+                self.assertTrue(data.startswith(b"%PDF") and data.rstrip().endswith(b"%%EOF"), name)
+                continue
+            root = xml.etree.ElementTree.fromstring(data)
+            pictures = sum(element.tag.endswith("}image") for element in root.iter())
+            # The reference and two places in it, of three methods and the reference.
+            self.assertEqual(pictures, 1 + 2 * 4 if "equal-work" in name else 0, name)
+        if not shutil.which("pdflatex"):
+            self.skipTest("the LaTeX was not compiled: this needs the Debian packages texlive-latex-base and "
+                          "texlive-latex-recommended")
+        result = subprocess.run(["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "paper.tex"],
+                                cwd=self.path("out"), capture_output=True, text=True, errors="replace", check=False)
+        self.assertEqual(result.returncode, 0, result.stdout[-3000:])
+        self.assertNotIn("undefined", result.stdout)
+        if shutil.which("pdftotext"):
+            text = subprocess.run(["pdftotext", "out/paper.pdf", "-"], cwd=self.folder, capture_output=True, text=True,
+                                  check=True).stdout
+            for words in ("relmse", "bdpt", "equal work"):
+                self.assertIn(words, text)
 
     def test_external_images(self):
         self.reference()

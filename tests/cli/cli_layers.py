@@ -22,6 +22,7 @@ BELOW = {
     "inspect": ["compare"],
     "cli": ["check", "demo", "inspect"],
     "serve": ["cli"],
+    "figures": ["compare"],
     "python": ["mcmc"],
 }
 

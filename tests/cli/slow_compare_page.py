@@ -43,12 +43,12 @@ class Page(_browser.Page):
         box = results["scenes"][0]
         summary = next(s for s in box["summaries"] if s["metric"] == "relmse" and not s["timed"])
         shown = [float(c.get_attribute("data-value")) for c in self.all("#ranking td[data-value]")]
-        for value, method in zip(shown, summary["methods"]):
-            self.assertAlmostEqual(value, method["error"]["value"], delta=1e-6 * value)
+        for value, method in zip(shown, summary["order"]):
+            self.assertAlmostEqual(value, summary["methods"][method]["error"]["value"], delta=1e-6 * value)
         self.assertTrue(self.all("#chart-time svg polyline") and self.all("#chart-work svg polygon"))
         self.assertEqual(len(self.all("#all-scenes svg")), 2)
         # The path of two edges lacks light, and that is no scatter.
-        self.assertIn("brightness off", self.all("#ranking tbody tr")[2].text)
+        self.assertIn("brightness off", self.one("#ranking tr[data-method='2']").text)
 
         # Keys and clicks choose what is seen.
         self.assertEqual(self.caption(), "path")

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "compare/curves.h"
 #include "compare/power_law.h"
 #include "compare/repeats.h"
 #include "compare/summary.h"
@@ -140,6 +141,35 @@ TEST(Summary, TimeRatioAndRanks) {
   EXPECT_EQ(summary.methods[1].rank, 1);
   EXPECT_EQ(summary.methods[2].verdict, "no difference shown");
   EXPECT_EQ(summary.methods[2].rank, 1);
+}
+
+// The last is not shown to be worse than the best, but than the second; rank and verdict must not contradict.
+TEST(Summary, RankAndVerdictSayTheSame) {
+  SceneRuns runs;
+  runs.methods = {method("wide", 1.6, {-0.5, 0.4, 0.05}), method("worst", 4, {-0.001, 0.001, 0}),
+                  method("best", 1, {-0.45, 0.5, 0.02}),
+                  method("second", 1.05, {-0.001, 0.001, 0})};
+  const Summary summary = summarise(runs, plan(), "relmse", true);
+  EXPECT_EQ(summary.best, 2);
+  for (const MethodSummary& m : summary.methods)
+    EXPECT_EQ(m.rank > 1, m.verdict == "worse") << m.name << ": " << m.rank << ", " << m.verdict;
+  EXPECT_EQ(summary.methods[1].rank, 1)
+      << "it is worse than the second, but not shown to be than the best";
+  EXPECT_EQ(summary.order, (std::vector<std::size_t>{2, 3, 0, 1}));
+}
+
+TEST(Curve, TwoRepeatsHaveARange) {
+  const MethodCurve two = methodCurve(method("two", 1, {-0.1, 0.1}), "relmse", true);
+  ASSERT_EQ(two.size(), 3u);
+  EXPECT_TRUE(two[2].bandIsRange);
+  EXPECT_NEAR(two[2].bandLow, 0.9 / 4, 1e-12);
+  EXPECT_NEAR(two[2].bandHigh, 1.1 / 4, 1e-12);
+  EXPECT_EQ(two[2].position, 4);
+  const MethodCurve three = methodCurve(method("three", 1, {-0.1, 0, 0.1}), "relmse", false);
+  EXPECT_FALSE(three[0].bandIsRange);
+  EXPECT_EQ(three[0].bandHigh, three[0].error.high);
+  EXPECT_EQ(three[0].position, 100);
+  EXPECT_TRUE(std::isnan(methodCurve(method("one", 1, {0}), "relmse", true)[0].bandLow));
 }
 
 TEST(Summary, OneRepeatShowsNothing) {

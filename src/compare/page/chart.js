@@ -5,7 +5,7 @@
 function logTicks(low, high) {
   const ticks = [], decades = Math.log10(high / low);
   for (let e = Math.floor(Math.log10(low)); e <= Math.ceil(Math.log10(high)); ++e)
-    for (const m of decades > 3 ? [1] : decades > 1.3 ? [1, 3] : [1, 2, 3, 5, 7]) {
+    for (const m of decades > 3 ? [1] : decades > 1.3 ? [1, 3] : [1, 2, 3, 4, 5, 7]) {
       const v = m * 10 ** e;
       if (v >= low * 0.999 && v <= high * 1.001) ticks.push(v);
     }
@@ -14,12 +14,13 @@ function logTicks(low, high) {
 
 // x: "seconds" | "perPixel". compact: for the overview of all scenes.
 function drawChart(figure, scene, metric, x, title, compact) {
-  const W = compact ? 300 : 600, H = compact ? 210 : 380;
+  const narrow = innerWidth < 700;  // so that its letters can be read there
+  const W = compact ? 300 : narrow ? 380 : 600, H = compact ? 210 : narrow ? 300 : 380;
   const left = compact ? 46 : 60, right = 12, top = compact ? 24 : 28, bottom = compact ? 24 : 42;
   const series = [];
   scene.methods.forEach((method, index) => {
     const curve = method.curves[metric]
-      .map((p) => ({ x: number(p[x]), y: number(p.error.value), low: number(p.error.low), high: number(p.error.high) }))
+      .map((p) => ({ x: number(p[x]), y: number(p.error.value), low: number(p.band.low), high: number(p.band.high) }))
       .filter((p) => p.x > 0 && p.y > 0 && Number.isFinite(p.y));
     const dots = method.repeats.flatMap((r) => r.points.map((p) => ({ x: p[x], y: number(p.errors[metric]) })))
       .filter((p) => p.x > 0 && p.y > 0 && Number.isFinite(p.y));

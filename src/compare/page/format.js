@@ -40,3 +40,10 @@ function svg(tag, attributes = {}, ...children) {
 
 const color = (method) => `var(--c${method % 9})`;
 const byId = (id) => document.getElementById(id);
+
+// On a narrow screen each row is a card whose cells name their columns (style.css).
+function labelCells(table) {
+  const names = [...table.querySelectorAll("thead th")].map((th) => th.textContent);
+  for (const row of table.querySelectorAll("tbody tr"))
+    [...row.children].forEach((cell, i) => { if (i) cell.setAttribute("data-label", names[i]); });
+}

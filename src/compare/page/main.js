@@ -8,7 +8,7 @@ const state = {
   mode: "one", show: "color", picture: 0, last: 0, right: -1, mark: null, exposure: 0, gamma: 2.2,
 };
 const REFERENCE = -1;
-const insets = data.scenes.map(() => null);  // rectangles, picked when first looked at
+const insets = data.scenes.map((s) => s.insets);  // rectangles, at first where the methods differ most
 const exposures = data.scenes.map(() => null);
 const brightness = new Map();  // of the scenes' references
 const scene = () => data.scenes[state.scene];
@@ -147,6 +147,7 @@ function showValues(at) {
         `pixel ${at.x}, ${at.y}`),
       ...["red", "green", "blue", "luminance", "to reference"].map((t) => element("th", {}, t)))),
     element("tbody", {}, ...rows));
+  labelCells(table);
 }
 
 // --- Insets --------------------------------------------------------------------------------------
@@ -159,8 +160,6 @@ function addInset(rectangle) {
 
 function drawInsets() {
   const list = pictures();
-  if (insets[state.scene] === null)
-    insets[state.scene] = whereTheyDiffer(list.map(values), values(REFERENCE), scene().width, scene().height, 2);
   const columns = list.length + 1;
   const size = Math.max(96, Math.min(230, Math.floor((byId("insets").clientWidth - 30) / columns) - 6));
   byId("insets").replaceChildren(...insets[state.scene].map((r) => {
@@ -290,6 +289,9 @@ function start() {
   byId("about").textContent =
     `${data.machine}, ${data.plan.threads} threads; ${data.plan.repeats} repeats, images at ${marks} ` +
     `${data.plan.timed ? "s" : "mutations or samples a pixel"}; h2mc ${data.programVersion}`;
+  byId("bands").textContent = data.plan.repeats < 2 ? "" : data.plan.bandsAreRanges
+    ? "bands: from the better to the worse one (the 95 % interval of two would cover the plot); "
+    : "bands: its 95 % interval; ";
   if (data.scenes.length > 1)
     byId("scenes").replaceChildren(...data.scenes.map((s, i) => {
       const tab = element("button", { role: "tab" }, s.name);

@@ -80,32 +80,3 @@ function pleasantExposure(values) {
   }
   return count ? Math.round(10 * Math.min(Math.max(Math.log2(0.18) - sum / count, -10), 10)) / 10 : 0;
 }
-
-// Rectangles where the methods' errors differ most: [{x, y, width, height}], at most `count`.
-function whereTheyDiffer(images, reference, width, height, count) {
-  const w = Math.max(8, Math.round(width / 9)), h = Math.max(6, Math.round((w * 3) / 4));
-  if (images.length === 0 || w > width || h > height) return [];
-  const offset = 0.01 * meanLuminance(reference) ** 2, candidates = [];
-  for (let y = 0; y + h <= height; y += Math.max(1, h >> 1))
-    for (let x = 0; x + w <= width; x += Math.max(1, w >> 1)) {
-      let low = Infinity, high = 0;
-      for (const image of images) {
-        let sum = 0;
-        for (let j = y; j < y + h; ++j)
-          for (let i = x; i < x + w; ++i) {
-            const k = 3 * (j * width + i), r = luminanceAt(reference, k), d = luminanceAt(image, k) - r;
-            sum += Math.min(1, (d * d) / (r * r + offset));
-          }
-        low = Math.min(low, sum);
-        high = Math.max(high, sum);
-      }
-      candidates.push({ x, y, width: w, height: h, score: images.length > 1 ? high - low : high });
-    }
-  candidates.sort((a, b) => b.score - a.score);
-  const chosen = [];
-  for (const c of candidates) {
-    if (chosen.length === count) break;
-    if (chosen.every((o) => Math.abs(o.x - c.x) >= w || Math.abs(o.y - c.y) >= h)) chosen.push(c);
-  }
-  return chosen;
-}

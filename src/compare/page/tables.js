@@ -15,8 +15,8 @@ function drawRanking(table, data, scene, metric, timed) {
     element("th", {}, "mean / reference"), element("th", {}, "bias² (relmse)"),
       element("th", { class: "text" }, "verdict"));
   const withInterval = (e) => element("td", {}, short(e.value), element("small", {}, interval(e)));
-  const rows = summary.methods.map((m, i) => {
-    const bias = scene.methods[i].bias;
+  const rows = summary.order.map((i) => {
+    const m = summary.methods[i], bias = scene.methods[i].bias;
     const name = element("td", { class: "text" }, element("span", { class: "key", style: `background:${color(i)}` }),
       m.name);
     if (scene.methods[i].external) name.append(element("small", {}, "external"));
@@ -39,6 +39,7 @@ function drawRanking(table, data, scene, metric, timed) {
       withInterval(m.timeRatio), withInterval(bias.meanRatio), biasText, verdict);
   });
   table.replaceChildren(element("thead", {}, head), element("tbody", {}, ...rows));
+  labelCells(table);
 }
 
 function referenceText(data, scene) {

@@ -226,6 +226,7 @@ function makeTables() {
       element("tbody", {}, ...model.eigen.map((e, i) => element("tr", { "data-name": e.name },
         ...cells("td", [e.name, short(e.value), short(1 / Math.sqrt(Math.abs(e.value))), short(e.slope),
           short(e.deviation), short(e.mean), ...shown.map((k) => short(k.jumpAlong[i]))])))));
+    labelCells(byId("eigen"));
   }
   byId("mutations").replaceChildren(
     element("thead", {},
@@ -234,6 +235,7 @@ function makeTables() {
     element("tbody", {}, ...data.kinds.map((k) => element("tr", {},
       ...cells("td", [k.name, String(k.count), percent(k.acceptance), short(k.jump), short(k.filmJump), String(k.dark),
         String(k.otherTechnique)])))));
+  labelCells(byId("mutations"));
 }
 
 function makeLegend() {
