@@ -9,7 +9,8 @@ import time
 
 import _h2mc
 
-BUDGETS = {"path": 8000, "bdpt": 2000, "mmlt": 5000, "h2mc": 3000, "lmc": 3000, "rjmlt": 4000, "mlt": 2500}
+BUDGETS = {"path": 8000, "bdpt": 2000, "mmlt": 5000, "h2mc": 3000, "lmc": 3000, "rjmlt": 4000, "mlt": 2500,
+           "pssmlt": 1500}
 
 
 class Kill(_h2mc.Test):

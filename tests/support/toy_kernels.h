@@ -26,7 +26,7 @@ inline void learnLeaps(KernelMixture& kernels) {
   ChainStatistics statistics(kernels.kinds(), 2);
   for (int octave = -kHighestOctave; octave <= kHighestOctave; ++octave) {
     statistics.departures[octaveRow(octave)] = octave % 2 == 0 ? 1000 : 250;
-    for (std::size_t kind = 1; kind < 3; ++kind) {
+    for (std::size_t kind = 1; kind < at(std::min(3, kernels.kinds())); ++kind) {
       const bool good = (octave + static_cast<int>(kind)) % 2 == 0;
       statistics.octaves[kind][octaveRow(octave)] = {1000, good ? 600. : 200.};
     }

@@ -53,7 +53,7 @@ RenderResult render(const Scene& scene, const std::string& wish, long long perPi
 TEST(Noise, OfEverySourceIsANumber) {
   const Scene scene = lampAndWall();
   for (const char* wish :
-       {"mlt-1997", "mmlt-2014", "h2mc", "h2mc:baseSamples=0", "lmc:baseSamples=2"})
+       {"mlt-1997", "mmlt-2014", "pssmlt-2002", "h2mc", "h2mc:baseSamples=0", "lmc:baseSamples=2"})
     for (const auto& [source, noise] : render(scene, wish, 8).statistics.at("noise").items()) {
       EXPECT_TRUE(noise.is_number() && std::isfinite(noise.get<double>()))
           << wish << ": " << source;

@@ -196,7 +196,7 @@ TEST(PixelStatistics, VarianceOfOneSample) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, OfRenders,
-                         ::testing::Values("path", "bdpt", "mmlt", "h2mc", "lmc", "rjmlt", "mlt"),
+                         ::testing::Values("path", "bdpt", "mmlt", "h2mc", "lmc", "rjmlt", "mlt", "pssmlt"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace

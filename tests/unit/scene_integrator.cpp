@@ -58,7 +58,7 @@ TEST(SceneIntegrator, OtherMethodsOfMitsubaAreRenderedByTheNearest) {
       << scene.warnings[0];
   for (const auto& [theirs, ours] :
        {std::pair("volpath", "path"), std::pair("volpath_simple", "path"),
-        std::pair("guided_path", "path"), std::pair("pssmlt", "mmlt"), std::pair("erpt", "mmlt"),
+        std::pair("guided_path", "path"), std::pair("erpt", "mmlt"),
         std::pair("photonmapper", "bdpt")}) {
     const Scene read = readBody("<integrator type=\"" + std::string(theirs) + "\"/>");
     EXPECT_EQ(read.integrator.integrator(), ours);

@@ -42,7 +42,7 @@ void Chain::archive(Archive& archive) {
 void Chain::flush(const KernelMixture& kernels, StateFilm& film) {
   const Path& path = current_->path;
   if (weight_ > 0) {
-    Mutation::splatPath(path, weight_, kernels.division(path.technique), film);
+    kernels.large->splatState(*current_, weight_, kernels.division(path.technique), film);
     film.land(path.filmX, path.filmY, weight_);
   }
   weight_ = 0;
@@ -51,6 +51,7 @@ void Chain::flush(const KernelMixture& kernels, StateFilm& film) {
 void Chain::step(KernelMixture& kernels, ChainFilms& films, ChainStatistics& statistics,
                  MutationContext& context) {
   if (steps_ % kDerivedAnew == 0) {
+    flush(kernels, films.states);
     current_->forget();
     memory_.forget();
   }
@@ -61,6 +62,7 @@ void Chain::step(KernelMixture& kernels, ChainFilms& films, ChainStatistics& sta
   const double start = context.timed ? wallClock() : 0;
 
   context.memory = &memory_;
+  kernels.large->complete(*current_, context);
   const auto choice = kernels.choose(current_->path, random_);
   if (choice)
     propose(*choice, kernels, films, statistics, context);

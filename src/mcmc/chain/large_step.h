@@ -18,6 +18,14 @@ class LargeStep : public Mutation {
   virtual void splatSample(const ChainState& proposed, const Division& division,
                            SampleFilm& film) const = 0;
 
+  // For mixtures whose states are more than a path: makes known what splatState() adds. Called before every step.
+  virtual void complete(ChainState&, MutationContext&) {}
+  // Adds a state where a chain has stayed. `division` is that of its technique.
+  virtual void splatState(const ChainState& state, double weight, const Division& division,
+                          StateFilm& film) const {
+    splatPath(state.path, weight, division, film);
+  }
+
  protected:
   double lastEstimate_ = 0;
 };

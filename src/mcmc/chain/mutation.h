@@ -162,6 +162,9 @@ struct MutationSetup {
   int minLength;                            // in edges, of the chains' paths
   const OptionSet& options;                 // with the mutation's parameters among them
   SlotNumbers& slots;
+  // All kernels of the mixture move whole bidirectional samples, of which the path is only what was picked: acceptance
+  // does not depend on the pick, and states are splatted with all their connections.
+  bool wholeSamples = false;
 };
 
 }  // namespace h2mc

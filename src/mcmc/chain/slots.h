@@ -65,6 +65,12 @@ class Slots {
     return static_cast<Held<T>&>(*place).content;
   }
 
+  // Of a slot that was asked for before.
+  template <class T>
+  const Content<T>& operator[](Slot<T> slot) const {
+    return static_cast<const Held<T>&>(*held_[at(slot.index)]).content;
+  }
+
   // No value is known any more. They keep their memory.
   void forget() {
     for (const auto& held : held_)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mcmc/methods/method.h"
 
+#include <algorithm>
+
 #include "mcmc/mutations/mutations.h"
 #include "render/integrator/common_options.h"
 
@@ -53,11 +55,17 @@ KernelMixture makeKernels(const MetropolisMethod& method, const PathTarget& targ
                           const TechniqueDistribution& techniques, const OptionSet& options,
                           int minLength) {
   SlotNumbers slots;
-  const MutationSetup setup{target, techniques, minLength, options, slots};
+  const std::vector<MetropolisMethod::Step> steps = method.steps(options);
+  const LargeStepPlugin& large = largeStepNamed(options.string("largeStep"));
+  const bool wholeSamples =
+      large.wholeSamples && std::all_of(steps.begin(), steps.end(), [](const auto& step) {
+        return mutationNamed(step.mutation).wholeSamples;
+      });
+  const MutationSetup setup{target, techniques, minLength, options, slots, wholeSamples};
   KernelMixture kernels;
-  kernels.large = largeStepNamed(options.string("largeStep")).create(setup);
+  kernels.large = large.create(setup);
   kernels.largeProbability = options.number("largeStepProbability");
-  for (const MetropolisMethod::Step& step : method.steps(options))
+  for (const MetropolisMethod::Step& step : steps)
     kernels.small.push_back({mutationNamed(step.mutation).create(setup), step.share, step.cost});
   return kernels;
 }

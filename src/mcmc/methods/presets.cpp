@@ -23,6 +23,11 @@ std::span<const Preset> presets() {
                                     {"roughnessThreshold", "0"},
                                     {"importanceMap", "false"},
                                     {"directSamples", "0"}};
+  static constexpr Option kPssmlt[] = {{"largeStepProbability", "0.3"},
+                                       {"baseSamples", "0"},
+                                       {"smallStep", "kelemen"},
+                                       {"importanceMap", "false"},
+                                       {"directSamples", "0"}};
   static constexpr Preset kPresets[] = {
       {"mmlt-2014",
        "Hachisuka, Kaplanyan, Dachsbacher 2014: one technique at a time, Kelemen's steps, "
@@ -39,6 +44,13 @@ std::span<const Preset> presets() {
        "is "
        "perfectly smooth counts as specular, luminance as the target, all light by the chains",
        "mlt", kMlt},
+      {"pssmlt-2002",
+       "Kelemen et al. 2002: one primary space for a whole bidirectional sample, exponential "
+       "steps, "
+       "a share of 0.3 of large ones, which count as samples too, luminance as the target, all "
+       "light by "
+       "the chains",
+       "pssmlt", kPssmlt},
   };
   return kPresets;
 }

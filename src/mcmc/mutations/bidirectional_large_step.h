@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
-
 #include "mcmc/mutations/mutations.h"
-#include "render/path/bidirectional.h"
+#include "mcmc/mutations/weighed_connections.h"
 
 namespace h2mc {
 
@@ -40,13 +38,8 @@ class BidirectionalLargeStep final : public LargeStep {
   const PathTarget& target_;
   int minLength_;
   BidirectionalSampler sampler_;
-  Slot<double> whole_;  // W of a whole sample around the state
-  struct Weighed {
-    BidirectionalSampler::Connection connection;
-    double target;
-  };
-  std::vector<Weighed> connections_;  // of the last proposal
-  double sum_ = 0;                    // of their targets
+  Slot<double> whole_;              // W of a whole sample around the state
+  WeighedConnections connections_;  // of the last proposal
 };
 
 LargeStepPlugin bidirectionalLargeStep();

@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "mcmc/mutations/isotropic_step.h"
 
-#include <cmath>
-
 #include "mcmc/mutations/mutation_options.h"
 #include "render/core/index.h"
 #include "render/core/unit_interval.h"
 
 namespace h2mc {
-
-float IsotropicStep::offset(Random& random) const {
-  if (shape_ == StepShape::kGaussian) return sigma_ * random.normal();
-  constexpr float kSmallest = 1.f / 1024, kLargest = 1.f / 64;
-  const float step = kLargest * std::exp(-std::log(kLargest / kSmallest) * random.uniform());
-  return random.next() & 1 ? step : -step;
-}
 
 Proposal IsotropicStep::propose(ChainState& current, ChainState& proposed,
                                 MutationContext& context) {
@@ -40,14 +31,12 @@ MutationPlugin isotropicStep() {
   static constexpr Parameter kParameters[] = {
       kSigmaParameter,
       kTargetAcceptanceParameter,
-      {"smallStep", ParameterType::kString, "gaussian", "shape of the isotropic step",
-       "gaussian|kelemen"},
+      smallStepParameter("gaussian"),
   };
   return {"isotropic", "all primary coordinates move a little, each by itself", kParameters,
           [](const MutationSetup& setup) -> std::unique_ptr<Mutation> {
-            const bool kelemen = setup.options.string("smallStep") == "kelemen";
             return std::make_unique<IsotropicStep>(
-                setup.target, kelemen ? StepShape::kKelemen : StepShape::kGaussian,
+                setup.target, smallStep(setup.options),
                 static_cast<float>(setup.options.number("sigma")),
                 setup.options.number("targetAcceptance"));
           },

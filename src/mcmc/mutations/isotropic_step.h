@@ -3,15 +3,10 @@
 #pragma once
 
 #include "mcmc/mutations/mutations.h"
+#include "mcmc/mutations/step_shape.h"
 #include "mcmc/mutations/step_sizes.h"
 
 namespace h2mc {
-
-// How far an isotropic step goes in each coordinate.
-enum class StepShape {
-  kGaussian,  // normal with standard deviation sigma
-  kKelemen,   // exponential between 1/1024 and 1/64 [Kelemen et al. 2002]
-};
 
 // All coordinates move, discrete choices and time included, and wrap, which is symmetric whatever the target does at
 // the borders; but for time, which is reflected there.
@@ -28,7 +23,7 @@ class IsotropicStep final : public Mutation {
   void archive(Archive& archive) override { sizes_.archive(archive); }
 
  private:
-  float offset(Random& random) const;
+  float offset(Random& random) const { return stepOffset(shape_, sigma_, random); }
 
   const Target& target_;
   StepShape shape_;

@@ -17,15 +17,16 @@
 #include "mcmc/mutations/technique_change.h"
 #include "mcmc/mutations/veach_bidirectional.h"
 #include "mcmc/mutations/veach_lens.h"
+#include "mcmc/mutations/whole_sample_steps.h"
 
 namespace h2mc {
 
 // A new mutation is a line here: options, `h2mc list mutations` and the tests of exactness find it by that.
 std::span<const MutationPlugin> mutations() {
-  static const std::array list = {isotropicStep(),     hamiltonianStep(),     langevinStep(),
-                                  lensStep(),          techniqueChange(),     veachLens(),
-                                  multiChain(),        causticPerturbation(), lensSubpath(),
-                                  veachBidirectional()};
+  static const std::array list = {isotropicStep(),      hamiltonianStep(),     langevinStep(),
+                                  lensStep(),           techniqueChange(),     veachLens(),
+                                  multiChain(),         causticPerturbation(), lensSubpath(),
+                                  veachBidirectional(), wholeSampleStep()};
   return list;
 }
 

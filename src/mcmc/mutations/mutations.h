@@ -18,6 +18,8 @@ struct KernelPlugin {
   std::unique_ptr<Kernel> (*create)(const MutationSetup& setup);
   // Throws OptionError for values out of range of its parameters; may be null.
   void (*check)(const OptionSet& options) = nullptr;
+  // Knows mixtures of MutationSetup::wholeSamples.
+  bool wholeSamples = false;
 };
 using MutationPlugin = KernelPlugin<Mutation>;
 using LargeStepPlugin = KernelPlugin<LargeStep>;

@@ -40,7 +40,6 @@ constexpr Foreign kForeign[] = {
     {"vcm", "bdpt", kNearest},
     {"upm", "bdpt", kNearest},
     {"vpl", "bdpt", kNearest},
-    {"pssmlt", "mmlt", kNearest},
     {"mlt", "mmlt", kNearest},
     {"erpt", "mmlt", kNearest},
     {"ao", "", ""},
