@@ -202,14 +202,15 @@ TEST_P(ChainOnHalfMoving, KeepsTheDistribution) {
   EXPECT_GT(crossings, kChains / 10);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kernels, ChainOnHalfMoving,
-                         testing::Values(Mixture{"large", 1, 0, 0, StepShape::kGaussian, 0.1f},
-                                         Mixture{"gaussian", 0.1, 1, 0, StepShape::kGaussian, 0.3f},
-                                         Mixture{"kelemen", 0.2, 1, 0, StepShape::kKelemen, 0.1f},
-                                         Mixture{"hamiltonian", 0.05, 0, 1, StepShape::kGaussian,
-                                                 0.25f},
-                                         Mixture{"all", 0.2, 0.3, 0.7, StepShape::kGaussian, 0.1f}),
-                         [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Kernels, ChainOnHalfMoving,
+    testing::Values(Mixture{"large", 1, 0, 0, StepShape::kGaussian, 0.1f},
+                    Mixture{"gaussian", 0.1, 1, 0, StepShape::kGaussian, 0.3f},
+                    Mixture{"kelemen", 0.2, 1, 0, StepShape::kKelemen, 0.1f},
+                    Mixture{"hamiltonian", 0.05, 0, 1, StepShape::kGaussian, 0.25f},
+                    Mixture{"delayed", 0.1, 0, 0, StepShape::kGaussian, 0.2f, false, 1},
+                    Mixture{"all", 0.2, 0.3, 0.7, StepShape::kGaussian, 0.1f}),
+    [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
 }  // namespace h2mc::test

@@ -163,6 +163,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Mixture{"kelemen", 0.2, 1, 0, StepShape::kKelemen, 0.1f},
                     Mixture{"hamiltonian", 0.1, 0, 1, StepShape::kGaussian, 0.2f},
                     Mixture{"hamiltonian_narrow", 0.1, 0, 1, StepShape::kGaussian, 0.03f},
+                    Mixture{"delayed", 0.1, 0, 0, StepShape::kGaussian, 0.1f, false, 1},
+                    Mixture{"delayed_and_others", 0.1, 0.3, 0.3, StepShape::kGaussian, 0.05f, true,
+                            0.4},
                     Mixture{"all", 0.3, 0.3, 0.7, StepShape::kGaussian, 0.1f},
                     Mixture{"learned", 0.1, 0.5, 0.5, StepShape::kGaussian, 0.1f, true}),
     [](const auto& info) { return std::string(info.param.name); });

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "mcmc/chain/chain.h"
+#include "mcmc/mutations/delayed_rejection.h"
 #include "mcmc/mutations/hamiltonian_step.h"
 #include "mcmc/mutations/isotropic_step.h"
 #include "mcmc/mutations/multiplexed_large_step.h"
@@ -19,6 +20,8 @@ struct ToyMixture {
   float sigma;
   bool learned =
       false;  // the isotropic and the Hamiltonian share depend on the octave of the target
+  double delayed =
+      0;  // share of Hamiltonian steps where isotropic ones of twice the size were refused
 };
 
 // Has shares, and how long chains stay where they are, learned that leap from each octave of the target to the next.
@@ -57,6 +60,12 @@ inline KernelMixture toyKernels(const Target& target, const TechniqueDistributio
   settings.sigma = mixture.sigma;
   kernels.small.push_back(
       {std::make_unique<HamiltonianStep>(target, settings, slots), mixture.hamiltonian, {}});
+  if (mixture.delayed > 0)
+    kernels.small.push_back({std::make_unique<DelayedRejection>(
+                                 target, "delayed", 2 * mixture.sigma,
+                                 std::make_unique<HamiltonianStep>(target, settings, slots)),
+                             mixture.delayed,
+                             {}});
   if (mixture.learned) {
     kernels.meanTarget = 1;
     for (KernelMixture::Small& s : kernels.small) s.cost = 1;

@@ -93,27 +93,77 @@ void Chain::propose(const KernelMixture::Choice& choice, KernelMixture& kernels,
       context.notFinite.add(proposed_->path.technique, proposed_->path.sample);
   }
 
-  // Both states count with their expected weights [Veach 1997, section 11.4].
-  weight_ += 1 - acceptance;
-  statistics.acceptance[kind][at(current_->path.technique.length())].add(acceptance);
-  const std::size_t row = octaveRow(kernels.octave(current_->path.target));
-  statistics.octaves[kind][row].add(acceptance);
+  // Each state counts with its expected weight [Veach 1997, section 11.4].
+  const int length = current_->path.technique.length();
+  const int octave = kernels.octave(current_->path.target);
   if (kind == 0) {
     const double estimate = kernels.large->lastEstimate();
     statistics.largeSteps.add(estimate);
     if (estimate > 0 && kernels.meanTarget)
       kernels.large->splatSample(*proposed_, kernels.division(), films.samples);
   }
-  if (!(acceptance > 0)) return;
-  if (kernels.departs(current_->path, proposed_->path)) statistics.departures[row] += acceptance;
-  mutation.splatProposal(*proposed_, acceptance, kernels.division(proposed_->path.technique),
-                         films.states);
-  films.states.land(proposed_->path.filmX, proposed_->path.filmY, acceptance);
-  if (random_.uniform() < acceptance) {
-    flush(kernels, films.states);
-    std::swap(current_, proposed_);
-    moved_ = true;
+  if (mutation.triesAgain()) {
+    // There is a second try where the first is refused: what is left of the weight is that of the state then.
+    if (accept(proposed_, acceptance, kernels, mutation, films.states, statistics))
+      acceptance = 1;
+    else
+      acceptance = proposeAgain(choice, acceptance, kernels, films, statistics, context);
+  } else {
+    weight_ += 1 - acceptance;
+    accept(proposed_, acceptance, kernels, mutation, films.states, statistics);
   }
+  statistics.acceptance[kind][at(length)].add(acceptance);
+  statistics.octaves[kind][octaveRow(octave)].add(acceptance);
+}
+
+bool Chain::accept(std::unique_ptr<ChainState>& proposed, double acceptance, KernelMixture& kernels,
+                   Mutation& mutation, StateFilm& film, ChainStatistics& statistics) {
+  if (!(acceptance > 0)) return false;
+  const Path& path = proposed->path;
+  if (kernels.departs(current_->path, path))
+    statistics.departures[octaveRow(kernels.octave(current_->path.target))] += acceptance;
+  mutation.splatProposal(*proposed, acceptance, kernels.division(path.technique), film);
+  film.land(path.filmX, path.filmY, acceptance);
+  if (!(random_.uniform() < acceptance)) return false;
+  flush(kernels, film);
+  std::swap(current_, proposed);
+  moved_ = true;
+  return true;
+}
+
+double Chain::proposeAgain(const KernelMixture::Choice& choice, double first,
+                           KernelMixture& kernels, ChainFilms& films, ChainStatistics& statistics,
+                           MutationContext& context) {
+  for (auto* state : {&second_, &back_}) {
+    if (!*state) *state = std::make_unique<ChainState>(target_.maxLength());
+    (*state)->forget();
+    (*state)->path.finite = true;
+  }
+  Mutation& mutation = kernels.mutation(choice.kind);
+  const Proposal proposal = mutation.proposeAgain(*current_, *proposed_, *second_, *back_, context);
+  double acceptance = 0;
+  if (proposal.made()) {
+    // That the first try was refused is a part of the way there. On the way back it is that of the other first try, from
+    // states that choose the kernel with probabilities of their own.
+    const Path& path = second_->path;
+    const KernelMixture::Choice other{choice.kind, kernels.probability(choice.kind, path)};
+    if (other.probability > 0) {
+      const double firstBack = back_->path.target > 0
+                                   ? Proposal::withLogRatio(0).acceptance(
+                                         path, back_->path, kernels.logRatio(other, back_->path))
+                                   : 0;
+      acceptance =
+          Proposal::withLogRatio(proposal.logRatio() + std::log((1 - firstBack) / (1 - first)))
+              .acceptance(current_->path, path, kernels.logRatio(choice, path));
+    }
+  }
+  for (const auto* state : {&second_, &back_})
+    if (!(*state)->path.finite)
+      context.notFinite.add((*state)->path.technique, (*state)->path.sample);
+  statistics.secondTries[choice.kind].add(acceptance);
+  weight_ += 1 - acceptance;
+  accept(second_, acceptance, kernels, mutation, films.states, statistics);
+  return acceptance;
 }
 
 }  // namespace h2mc

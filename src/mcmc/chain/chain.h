@@ -39,9 +39,18 @@ class Chain {
   void propose(const KernelMixture::Choice& choice, KernelMixture& kernels, ChainFilms& films,
                ChainStatistics& statistics, MutationContext& context);
 
+  // After the proposal was refused that was to be accepted with probability `first`. Returns with which the second one
+  // is.
+  double proposeAgain(const KernelMixture::Choice& choice, double first, KernelMixture& kernels,
+                      ChainFilms& films, ChainStatistics& statistics, MutationContext& context);
+  // With probability `acceptance` goes on from the state, splatted with that weight.
+  bool accept(std::unique_ptr<ChainState>& proposed, double acceptance, KernelMixture& kernels,
+              Mutation& mutation, StateFilm& film, ChainStatistics& statistics);
+
   const Target& target_;
   std::unique_ptr<ChainState> current_, proposed_;
-  Slots memory_;  // of the kernels
+  std::unique_ptr<ChainState> second_, back_;  // of second tries; null before the first of them
+  Slots memory_;                               // of the kernels
   Random random_;
   double weight_ = 0;  // of the present state, not yet splatted
   long long steps_ = 0;

@@ -125,6 +125,18 @@ class Mutation {
   // applies(current.path), current.path.target > 0; `proposed` is forgotten, its path of any content.
   virtual Proposal propose(ChainState& current, ChainState& proposed, MutationContext& context) = 0;
 
+  // Whether the chain, where it has not accepted what propose() made, is to ask for another proposal.
+  virtual bool triesAgain() const { return false; }
+  // That proposal, by delayed rejection [Green and Mira 2001]: makes `proposed` from `current` as propose() does, whatever
+  // `refused` was, and returns the ratio of the two ways' densities. `back` becomes what a first try at `proposed` would
+  // have to be for a second one to lead back to `current`, evaluated, its target zero where it carries nothing. First
+  // tries must have q(current -> refused) = q(proposed -> back) and q(refused -> current) = q(back -> proposed) = those.
+  virtual Proposal proposeAgain(ChainState& current, const ChainState& refused,
+                                ChainState& proposed, ChainState& back, MutationContext& context) {
+    (void)current, (void)refused, (void)proposed, (void)back, (void)context;
+    return Proposal::none();
+  }
+
   // log q(from -> to) with respect to the primary measure, for kernels that have such a density, for composites that
   // need it by itself; up to the same constant for the way back.
   virtual std::optional<double> logDensity(ChainState& from, ChainState& to,

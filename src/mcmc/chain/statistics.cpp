@@ -33,7 +33,8 @@ ChainStatistics::ChainStatistics(int mutationKinds, int maxLength)
       octaves(static_cast<std::size_t>(mutationKinds), std::vector<AcceptanceCount>(kOctaves)),
       departures(kOctaves, 0),
       refusals(static_cast<std::size_t>(mutationKinds)),
-      sums(static_cast<std::size_t>(mutationKinds)) {}
+      sums(static_cast<std::size_t>(mutationKinds)),
+      secondTries(static_cast<std::size_t>(mutationKinds)) {}
 
 void DerivativeCounts::add(const DerivativeCounts& other) {
   steps += other.steps;
@@ -67,6 +68,8 @@ void ChainStatistics::add(const ChainStatistics& other) {
   for (std::size_t kind = 0; kind < refusals.size(); ++kind)
     for (std::size_t why = 0; why < kRefusals; ++why)
       refusals[kind][why] += other.refusals[kind][why];
+  for (std::size_t kind = 0; kind < secondTries.size(); ++kind)
+    secondTries[kind].add(other.secondTries[kind]);
   derivatives.add(other.derivatives);
   largeSteps.add(other.largeSteps);
   profile.add(other.profile);
@@ -75,8 +78,8 @@ void ChainStatistics::add(const ChainStatistics& other) {
 }
 
 void ChainStatistics::archive(Archive& archive) {
-  archive(acceptance, octaves, departures, refusals, sums, derivatives, largeSteps, profile,
-          mutations, notFinite);
+  archive(acceptance, octaves, departures, refusals, sums, secondTries, derivatives, largeSteps,
+          profile, mutations, notFinite);
 }
 
 namespace {
@@ -133,6 +136,8 @@ nlohmann::json ChainStatistics::json(const std::vector<std::string>& kindNames) 
     }
     kinds[kindNames[kind]] = rate(all);
     kinds[kindNames[kind]]["by path length"] = byLength;
+    if (secondTries[kind].proposed > 0)
+      kinds[kindNames[kind]]["second try"] = rate(secondTries[kind]);
     const nlohmann::json refused = refusalShares(refusals[kind], all.proposed);
     if (!refused.empty()) kinds[kindNames[kind]]["refused"] = refused;
   }

@@ -65,7 +65,8 @@ struct ChainStatistics {
   std::vector<std::vector<AcceptanceCount>> octaves;     // [kind][octaveRow(octave)]
   std::vector<double> departures;  // [octaveRow(octave)]: moves by more than a pixel, as expected
   std::vector<std::array<long long, kRefusals>> refusals;  // [kind][Refusal]: nothing proposed
-  std::vector<std::vector<double>> sums;  // [kind]: what a mutation adds up to learn from
+  std::vector<std::vector<double>> sums;     // [kind]: what a mutation adds up to learn from
+  std::vector<AcceptanceCount> secondTries;  // [kind]
   DerivativeCounts derivatives;
   Moments largeSteps;  // target over density: estimates of the mean luminance
   Profile profile;

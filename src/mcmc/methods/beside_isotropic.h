@@ -11,8 +11,10 @@ MetropolisMethod methodBesideIsotropic(
     std::string_view name, std::string_view description,
     std::vector<MetropolisMethod::Step> (*steps)(const OptionSet& options));
 
-// The mixture, by the options lensProbability and isotropicProbability. `cost`: of the mutation, in isotropic steps.
+// The mixture, by the options lensProbability, isotropicProbability and delayedRejection. `cost`: of the mutation, in
+// isotropic steps; `delayed`: the mutation that tries it where an isotropic step was refused.
 std::vector<MetropolisMethod::Step> besideIsotropic(const OptionSet& options,
-                                                    std::string_view mutation, double cost);
+                                                    std::string_view mutation, double cost,
+                                                    std::string_view delayed);
 
 }  // namespace h2mc

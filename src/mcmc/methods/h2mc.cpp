@@ -11,7 +11,9 @@ MetropolisMethod h2mcMethod() {
   static constexpr double kCost = 4;
   return methodBesideIsotropic(
       "h2mc", "Metropolis light transport with Hessian-Hamiltonian proposals [Li et al. 2015]",
-      [](const OptionSet& options) { return besideIsotropic(options, "hamiltonian", kCost); });
+      [](const OptionSet& options) {
+        return besideIsotropic(options, "hamiltonian", kCost, "isotropicThenHamiltonian");
+      });
 }
 
 }  // namespace h2mc

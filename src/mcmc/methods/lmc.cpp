@@ -11,7 +11,9 @@ MetropolisMethod lmcMethod() {
   return methodBesideIsotropic(
       "lmc",
       "Metropolis light transport with Langevin steps, by gradients alone [Luan et al. 2020]",
-      [](const OptionSet& options) { return besideIsotropic(options, "langevin", kCost); });
+      [](const OptionSet& options) {
+        return besideIsotropic(options, "langevin", kCost, "isotropicThenLangevin");
+      });
 }
 
 }  // namespace h2mc

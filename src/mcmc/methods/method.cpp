@@ -66,7 +66,8 @@ KernelMixture makeKernels(const MetropolisMethod& method, const PathTarget& targ
   kernels.large = large.create(setup);
   kernels.largeProbability = options.number("largeStepProbability");
   for (const MetropolisMethod::Step& step : steps)
-    kernels.small.push_back({mutationNamed(step.mutation).create(setup), step.share, step.cost});
+    if (step.share > 0)
+      kernels.small.push_back({mutationNamed(step.mutation).create(setup), step.share, step.cost});
   return kernels;
 }
 

@@ -24,7 +24,8 @@ struct MetropolisMethod {
     double share;                // of the small steps
     std::optional<double> cost;  // see KernelMixture::Small
   };
-  // The mixture that the options ask for. Whatever they are, the same mutations in the same order.
+  // The mixture that the options ask for. Whatever they are, the same mutations in the same order; those without a
+  // share are left out of the chains'.
   std::vector<Step> (*steps)(const OptionSet& options);
   // The options besides those that all methods have and those of its mutations.
   std::vector<Parameter> ownParameters;

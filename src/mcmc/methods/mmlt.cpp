@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mcmc/methods/mmlt.h"
 
-#include "mcmc/methods/lens_share.h"
+#include "mcmc/methods/shared_steps.h"
 
 namespace h2mc {
 
@@ -11,9 +11,12 @@ MetropolisMethod mmltMethod() {
       "multiplexed Metropolis light transport with isotropic small steps [Hachisuka et al. 2014]",
       [](const OptionSet& options) -> std::vector<MetropolisMethod::Step> {
         const double lens = options.number("lensProbability");
-        return {{"lens", lens, {}}, {"isotropic", 1 - lens, {}}};
+        const bool delayed = options.boolean("delayedRejection");
+        return {{"lens", lens, {}},
+                {"isotropic", delayed ? 0 : 1 - lens, {}},
+                {"isotropicThenTimid", delayed ? 1 - lens : 0, {}}};
       },
-      {kLensProbabilityParameter},
+      {kLensProbabilityParameter, kDelayedRejectionParameter},
       [](const OptionSet& options) { requireRange(options, "lensProbability", 0, 1); }};
 }
 

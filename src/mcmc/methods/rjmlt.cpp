@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mcmc/methods/rjmlt.h"
 
-#include "mcmc/methods/lens_share.h"
+#include "mcmc/methods/shared_steps.h"
 
 namespace h2mc {
 

@@ -38,8 +38,7 @@ HamiltonianSettings hamiltonianSettings(const OptionSet& options) {
 MutationPlugin hamiltonianStep() {
   static constexpr Parameter kParameters[] = {
       kSigmaParameter,
-      {"trajectoryLength", ParameterType::kNumber, "1.5707963",
-       "length of the Hamiltonian trajectory, 0 < L < pi"},
+      kTrajectoryLengthParameter,
       kMaxDriftParameter,
   };
   return {"hamiltonian",

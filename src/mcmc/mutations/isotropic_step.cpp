@@ -22,7 +22,10 @@ Proposal IsotropicStep::propose(ChainState& current, ChainState& proposed,
   const SharedCoordinates shared = target_.shared();
   float x[kMostShared];
   getShared(shared, from.sample, x);
-  for (int i = 0; i < shared.count(); ++i) x[i] = reflect(x[i] + size * offset(*context.random));
+  for (int i = 0; i < shared.count(); ++i) {
+    const float moved = x[i] + size * offset(*context.random);
+    x[i] = sharedWraps_ ? wrap(moved) : reflect(moved);
+  }
   setShared(shared, x, to.sample);
   return target_.evaluate(to) ? Proposal::withLogRatio(0) : Proposal::none();
 }

@@ -9,12 +9,17 @@
 namespace h2mc {
 
 // All coordinates move, discrete choices and time included, and wrap, which is symmetric whatever the target does at
-// the borders; but for time, which is reflected there.
+// the borders; but for time and the aperture's, which are reflected there unless `sharedWraps`.
 class IsotropicStep final : public Mutation {
  public:
   // Keeps a reference.
-  IsotropicStep(const Target& target, StepShape shape, float sigma, double targetAcceptance = 0)
-      : target_(target), shape_(shape), sigma_(sigma), sizes_(targetAcceptance) {}
+  IsotropicStep(const Target& target, StepShape shape, float sigma, double targetAcceptance = 0,
+                bool sharedWraps = false)
+      : target_(target),
+        shape_(shape),
+        sigma_(sigma),
+        sizes_(targetAcceptance),
+        sharedWraps_(sharedWraps) {}
   std::string_view name() const override { return "isotropic"; }
   Proposal propose(ChainState& current, ChainState& proposed, MutationContext& context) override;
   void learn(const ChainStatistics& statistics, std::size_t kind) override {
@@ -29,6 +34,7 @@ class IsotropicStep final : public Mutation {
   StepShape shape_;
   float sigma_;
   StepSizes sizes_;
+  bool sharedWraps_;
 };
 
 // By the options sigma and smallStep.

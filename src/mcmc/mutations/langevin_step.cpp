@@ -87,8 +87,7 @@ void LangevinStep::make(const Path& path, MutationContext& context, Gaussian& ga
 MutationPlugin langevinStep() {
   static constexpr Parameter kParameters[] = {
       kSigmaParameter,
-      {"stepSize", ParameterType::kNumber, "1",
-       "deviation of a Langevin step along a coordinate, times the derivatives met there"},
+      kStepSizeParameter,
       kMaxDriftParameter,
       kTargetAcceptanceParameter,
   };

@@ -16,6 +16,12 @@ inline constexpr Parameter kTargetAcceptanceParameter = {
 inline void requireAcceptance(const OptionSet& options) {
   requireRange(options, "targetAcceptance", 0, 0.99);
 }
+inline constexpr Parameter kTrajectoryLengthParameter = {
+    "trajectoryLength", ParameterType::kNumber, "1.5707963",
+    "length of the Hamiltonian trajectory, 0 < L < pi"};
+inline constexpr Parameter kStepSizeParameter = {
+    "stepSize", ParameterType::kNumber, "1",
+    "deviation of a Langevin step along a coordinate, times the derivatives met there"};
 inline constexpr Parameter kMaxDriftParameter = {
     "maxDrift", ParameterType::kNumber, "3",
     "longest drift of a proposal along an eigenvector or axis, in its standard deviations"};

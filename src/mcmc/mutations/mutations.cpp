@@ -7,6 +7,7 @@
 
 #include "mcmc/mutations/bidirectional_large_step.h"
 #include "mcmc/mutations/caustic.h"
+#include "mcmc/mutations/delayed_rejection.h"
 #include "mcmc/mutations/hamiltonian_step.h"
 #include "mcmc/mutations/isotropic_step.h"
 #include "mcmc/mutations/langevin_step.h"
@@ -23,10 +24,20 @@ namespace h2mc {
 
 // A new mutation is a line here: options, `h2mc list mutations` and the tests of exactness find it by that.
 std::span<const MutationPlugin> mutations() {
-  static const std::array list = {isotropicStep(),      hamiltonianStep(),     langevinStep(),
-                                  lensStep(),           techniqueChange(),     veachLens(),
-                                  multiChain(),         causticPerturbation(), lensSubpath(),
-                                  veachBidirectional(), wholeSampleStep()};
+  static const std::array list = {isotropicStep(),
+                                  hamiltonianStep(),
+                                  langevinStep(),
+                                  lensStep(),
+                                  techniqueChange(),
+                                  veachLens(),
+                                  multiChain(),
+                                  causticPerturbation(),
+                                  lensSubpath(),
+                                  veachBidirectional(),
+                                  wholeSampleStep(),
+                                  isotropicThenTimid(),
+                                  isotropicThenHamiltonian(),
+                                  isotropicThenLangevin()};
   return list;
 }
 
