@@ -10,8 +10,8 @@
 
 namespace h2mc {
 
-// Below this many repeats the 95 % interval is so wide (2: a factor of exp(9 times the logarithms' spread)) that it says
-// nothing in a plot.
+// Below this many repeats the 95 % interval is so wide (of two: nine standard deviations of the logarithms to both
+// sides) that it says nothing in a plot.
 inline constexpr int kLeastForBands = 3;
 
 // The images of one mark in all repeats. Times and errors are geometric means.

@@ -164,11 +164,11 @@ TEST(Curve, TwoRepeatsHaveARange) {
   EXPECT_TRUE(two[2].bandIsRange);
   EXPECT_NEAR(two[2].bandLow, 0.9 / 4, 1e-12);
   EXPECT_NEAR(two[2].bandHigh, 1.1 / 4, 1e-12);
-  EXPECT_EQ(two[2].position, 4);
+  EXPECT_NEAR(two[2].position, 4, 1e-12);
   const MethodCurve three = methodCurve(method("three", 1, {-0.1, 0, 0.1}), "relmse", false);
   EXPECT_FALSE(three[0].bandIsRange);
   EXPECT_EQ(three[0].bandHigh, three[0].error.high);
-  EXPECT_EQ(three[0].position, 100);
+  EXPECT_NEAR(three[0].position, 100, 1e-10);
   EXPECT_TRUE(std::isnan(methodCurve(method("one", 1, {0}), "relmse", true)[0].bandLow));
 }
 
