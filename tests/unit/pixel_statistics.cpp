@@ -196,7 +196,8 @@ TEST(PixelStatistics, VarianceOfOneSample) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, OfRenders,
-                         ::testing::Values("path", "bdpt", "mmlt", "h2mc", "lmc", "rjmlt", "mlt", "pssmlt"),
+                         ::testing::Values("path", "bdpt", "mmlt", "h2mc", "lmc", "rjmlt", "mlt",
+                                           "pssmlt"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace

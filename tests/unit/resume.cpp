@@ -177,7 +177,8 @@ TEST_P(Resume, RefusesWhatDoesNotFit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, Resume,
-                         ::testing::Values("path", "bdpt", "mmlt", "h2mc", "lmc", "rjmlt", "mlt", "pssmlt"),
+                         ::testing::Values("path", "bdpt", "mmlt", "h2mc", "lmc", "rjmlt", "mlt",
+                                           "pssmlt"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace

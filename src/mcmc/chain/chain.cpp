@@ -143,8 +143,8 @@ double Chain::proposeAgain(const KernelMixture::Choice& choice, double first,
   const Proposal proposal = mutation.proposeAgain(*current_, *proposed_, *second_, *back_, context);
   double acceptance = 0;
   if (proposal.made()) {
-    // That the first try was refused is a part of the way there. On the way back it is that of the other first try, from
-    // states that choose the kernel with probabilities of their own.
+    // That the first try was refused is a part of the way there. On the way back it is that of the other first try,
+    // from states that choose the kernel with probabilities of their own.
     const Path& path = second_->path;
     const KernelMixture::Choice other{choice.kind, kernels.probability(choice.kind, path)};
     if (other.probability > 0) {

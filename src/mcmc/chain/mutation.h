@@ -127,10 +127,10 @@ class Mutation {
 
   // Whether the chain, where it has not accepted what propose() made, is to ask for another proposal.
   virtual bool triesAgain() const { return false; }
-  // That proposal, by delayed rejection [Green and Mira 2001]: makes `proposed` from `current` as propose() does, whatever
-  // `refused` was, and returns the ratio of the two ways' densities. `back` becomes what a first try at `proposed` would
-  // have to be for a second one to lead back to `current`, evaluated, its target zero where it carries nothing. First
-  // tries must have q(current -> refused) = q(proposed -> back) and q(refused -> current) = q(back -> proposed) = those.
+  // That proposal, by delayed rejection [Green and Mira 2001]: makes `proposed` from `current` as propose() does,
+  // whatever `refused` was, and returns the ratio of the two ways' densities. `back` becomes what a first try at
+  // `proposed` would have to be for a second one to lead back to `current`, evaluated, its target zero where it carries
+  // nothing. First tries must be symmetric and have q(current -> refused) = q(proposed -> back).
   virtual Proposal proposeAgain(ChainState& current, const ChainState& refused,
                                 ChainState& proposed, ChainState& back, MutationContext& context) {
     (void)current, (void)refused, (void)proposed, (void)back, (void)context;

@@ -8,9 +8,9 @@
 namespace h2mc {
 
 // First an isotropic step from x to y, cheap or bold; where it is refused, another mutation's from x to z [Tierney and
-// Mira 1999; Rioux-Lavoie et al. 2020, "Delayed Rejection Metropolis Light Transport"]. It is accepted by Green and Mira's
-// rule [2001]: with y* = z - (y - x), the first try of which z would have to be refused on the way back, a(., .) the
-// acceptance of first tries and q the densities of the second,
+// Mira 1999; Rioux-Lavoie et al. 2020, "Delayed Rejection Metropolis Light Transport"]. It is accepted by Green and
+// Mira's rule [2001]: with y* = z - (y - x), the first try of which z would have to be refused on the way back, a(., .)
+// the acceptance of first tries and q the densities of the second,
 //
 //     min(1, f(z) q(z -> x) (1 - a(z, y*)) / (f(x) q(x -> z) (1 - a(x, y)))).
 //

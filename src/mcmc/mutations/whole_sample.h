@@ -30,13 +30,14 @@ class NewCoordinates final : public SampleCoordinates {
   Random& random_;
 };
 
-// Primary sample space Metropolis light transport [Kelemen et al. 2002] has a whole sample X as its state, and W(X), the
-// sum f_i of its connections' targets, as its target. Here a state is one path: connection i, drawn with probability f_i
-// / W(X). On the pairs (X, i) with density f_i the step from X to X' with i' drawn in that way is accepted with
-// probability min(1, W(X') / W(X)): X moves as if nothing were ever picked, and other mutations may move i between.
+// Primary sample space Metropolis light transport [Kelemen et al. 2002] has a whole sample X as its state, and W(X),
+// the sum f_i of its connections' targets, as its target. Here a state is one path: connection i, drawn with
+// probability f_i / W(X). On the pairs (X, i) with density f_i the step from X to X' with i' drawn in that way is
+// accepted with probability min(1, W(X') / W(X)): X moves as if nothing were ever picked, and other mutations may move
+// i between.
 //
-// To them, the coordinates that i does not use are uniform and independent: where a sample is not known, because another
-// mutation has moved the path or because the chain has forgotten it (Chain::kDerivedAnew), they are drawn anew.
+// To them, the coordinates that i does not use are uniform and independent: where a sample is not known, because
+// another mutation has moved the path or because the chain has forgotten it (Chain::kDerivedAnew), they are drawn anew.
 class WholeSamples {
  public:
   // Keeps a reference.

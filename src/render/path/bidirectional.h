@@ -109,8 +109,8 @@ class BidirectionalSampler {
   template <class Coordinates>
   void drawFrom(const Scene& scene, Coordinates& coordinates, float filmX, float filmY,
                 const Path* given);
-  // Places of coordinates: of the film; of the scattering at the i-th vertex after the eye or the light, i >= 1, with its
-  // choice; of the light's pick and the ray that it emits; of the light that the i-th camera vertex samples.
+  // Places of coordinates: of the film; of the scattering at the i-th vertex after the eye or the light, i >= 1, with
+  // its choice; of the light's pick and the ray that it emits; of the light that the i-th camera vertex samples.
   static constexpr int kFilmPlace = kMostShared;
   static int cameraPlace(int i) { return kFilmPlace + 2 + 3 * (i - 1); }
   int emissionPlace() const { return cameraPlace(maxLength_); }
