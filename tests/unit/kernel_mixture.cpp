@@ -102,6 +102,29 @@ TEST(KernelMixture, LearnsWhatPaysAtEachOctave) {
   EXPECT_EQ(logRatio(m.kernels, 0, dim, bright), 0);
 }
 
+// States of a chain that stays within a pixel count as one, at each octave by itself.
+TEST(KernelMixture, DividesByHowLongChainsStay) {
+  Mixture m(1, 4);
+  m.kernels.meanTarget = 2;
+  m.kernels.baseSamples = 0.3;
+  const double before = m.kernels.division().ofState(2);
+  EXPECT_EQ(before, 2 + m.kernels.division().level);
+  ChainStatistics statistics(m.kernels.kinds(), 2);
+  statistics.octaves[kIsotropic][octaveRow(8)] = {600, 10};
+  statistics.octaves[kHamiltonian][octaveRow(8)] = {400, 10};
+  statistics.departures[octaveRow(8)] = 9;
+  m.kernels.learn(statistics);
+  EXPECT_EQ(m.kernels.division().ofState(2), before);
+  m.kernels.dividesByHolding = true;
+  m.kernels.learn(statistics);
+  const Division division = m.kernels.division();
+  const double level = (m.kernels.largeProbability + 0.3) * 2;
+  EXPECT_DOUBLE_EQ(division.ofState(2), 2 + level);
+  EXPECT_DOUBLE_EQ(division.ofState(2 * 256), 2 * 256 + 100 * level);
+  for (const double f : {1e-9, 2., 600.})
+    EXPECT_NEAR(f / division.ofState(f) + division.ofSample(f), 1, 1e-12);
+}
+
 TEST(KernelMixture, WhatHasNoCostKeepsItsShare) {
   Mixture m({}, 4);
   learnLeaps(m.kernels);

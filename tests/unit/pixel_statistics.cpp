@@ -119,7 +119,8 @@ class OfRenders : public ::testing::TestWithParam<const char*> {
   }
   static RenderResult render(const Scene& scene, const RenderRequest& request,
                              const char* chains = "16") {
-    return test::renderTiny(GetParam(), scene, request, {{"maxDepth", "5"}, {"chains", chains}});
+    return test::renderTiny(GetParam(), scene, request,
+                            {{"maxDepth", "5"}, {"chains", chains}, {"baseSamples", "0.5"}});
   }
 };
 
@@ -157,7 +158,7 @@ TEST_P(OfRenders, CostNothingElse) {
 TEST_P(OfRenders, GoOnFromAnArchive) {
   const Scene scene = test::tinyRing();
   std::vector<std::string> states;
-  RenderRequest first = request(5, 150);
+  RenderRequest first = request(5, 60);
   first.watch = [&](RenderInProgress& now) {
     if (!now.isExact() && !now.isOver()) return;
     std::ostringstream stream;
@@ -167,11 +168,11 @@ TEST_P(OfRenders, GoOnFromAnArchive) {
   };
   const RenderResult whole = render(scene, first);
   ASSERT_GE(states.size(), 8u);
-  for (std::size_t k = 0; k < 9; ++k) {
-    const std::string& state = states[(states.size() - 1) * k / 8];
+  for (std::size_t k = 0; k < 5; ++k) {
+    const std::string& state = states[(states.size() - 1) * k / 4];
     std::istringstream stream(state);
     Archive archive(stream, state.size());
-    RenderRequest again = request(5, 150);
+    RenderRequest again = request(5, 60);
     again.resume = &archive;
     again.watch = [](RenderInProgress&) {};
     const RenderResult result = render(scene, again);

@@ -116,15 +116,15 @@ class Resume : public ::testing::TestWithParam<const char*> {
 // its brightness and the number of samples are those of a render that nobody has interrupted or watched.
 TEST_P(Resume, GivesTheSameImage) {
   const Scene scene = test::tinyRing();
-  const RenderResult plain = render(scene, request(150, 1));
+  const RenderResult plain = render(scene, request(60, 1));
   std::vector<Saved> states;
-  const RenderResult watched = renderAndSave(scene, request(150, 2), states);
+  const RenderResult watched = renderAndSave(scene, request(60, 2), states);
   EXPECT_EQ(plain.image.pixels, watched.image.pixels);
   ASSERT_GE(states.size(), 8u);
-  // Nine of them, evenly spread, the last but one among them.
-  for (std::size_t k = 0; k < 9; ++k) {
-    const std::size_t index = (states.size() - 2) * k / 8;
-    const RenderResult result = goOn(scene, request(150, k % 2 == 0 ? 1 : 2), states[index].state);
+  // Five of them, evenly spread, the last but one among them.
+  for (std::size_t k = 0; k < 5; ++k) {
+    const std::size_t index = (states.size() - 2) * k / 4;
+    const RenderResult result = goOn(scene, request(60, k % 2 == 0 ? 1 : 2), states[index].state);
     EXPECT_EQ(result.image.pixels, plain.image.pixels) << index << " of " << states.size();
     EXPECT_EQ(result.samples, plain.samples);
     EXPECT_EQ(result.meanLuminance, plain.meanLuminance);

@@ -51,8 +51,8 @@ struct Profile {
   void add(const Profile& other);
 };
 
-// For how many of so many mutations a chain stays before it departs, at least 1. One that nobody has seen depart counts as
-// one that is about to.
+// For how many of so many mutations a chain stays before it departs, at least 1. One that nobody has seen depart counts
+// as one that is about to.
 inline double heldFor(long long mutations, double departures) {
   return std::max(static_cast<double>(mutations) / (departures + 1), 1.);
 }

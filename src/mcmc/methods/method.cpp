@@ -25,6 +25,9 @@ std::span<const Parameter> sharedParameters() {
        "bidirectional samples for each mutation, to which chains leave what samples are good at; "
        "0: chains do all, -1: "
        "what makes the picture least noisy, none beside multiplexed large steps"},
+      {"divisionByHolding", ParameterType::kBoolean, "false",
+       "of successive states within a pixel, count as many as one as there are on average at that "
+       "brightness when base samples and states divide the picture: fewer spikes, more samples"},
       {"largeStepProbability", ParameterType::kNumber, "0.2", "share of large steps"},
       {"largeStep", ParameterType::kString, "bidirectional",
        "what a large step proposes: a connection of a whole bidirectional sample, or one technique",

@@ -13,12 +13,12 @@ namespace {
 
 constexpr std::uint64_t kChainStream = 0x636861696e, kResampleStream = 0x7265736d;
 // The first epoch's mutations a pixel.
-constexpr double kFirstEpoch = 1;
+constexpr double kFirstEpoch = 4;
 // So many mutations make a cell of the importance map.
 constexpr double kMutationsPerCell = 256;
 // Base samples for each mutation before their noise is known, and what one of them costs, in mutations: 1 to 1.4 on the
 // project's scenes. No clock is asked, so that the picture does not depend on it.
-constexpr double kFirstBase = 1, kBaseCost = 1.2;
+constexpr double kFirstBase = 0.3, kBaseCost = 1.2;
 
 double baseSamplesAtFirst(const OptionSet& options) {
   const double wanted = options.number("baseSamples");
@@ -55,7 +55,7 @@ ChainEnsemble::ChainEnsemble(const Scene& scene, const MetropolisMethod& method,
     KernelMixture kernels = makeKernels(method, target_, techniques_, options, minLength);
     kernels.meanTarget = bootstrap.luminance().mean();
     kernels.baseSamples = baseSamplesAtFirst(options);
-    kernels.dividesByHolding = kernels.baseSamples > 0;
+    kernels.dividesByHolding = kernels.baseSamples > 0 && options.boolean("divisionByHolding");
     kernels.width = static_cast<float>(scene.film.width);
     kernels.height = static_cast<float>(scene.film.height);
     const int kinds = kernels.kinds();

@@ -34,8 +34,8 @@ class Live(_h2mc.Test):
 
     def same_picture(self, *arguments):
         """A render with these options gives the bytes of one without."""
-        self.succeeds("render", "scene.xml", "-i", _h2mc.quick("h2mc"), "-m", 3000, "-o", "alone.exr")
-        self.end(self.begin("-m", 3000, "-o", "watched.exr", *arguments))
+        self.succeeds("render", "scene.xml", "-i", _h2mc.quick("h2mc"), "-m", 800, "-o", "alone.exr")
+        self.end(self.begin("-m", 800, "-o", "watched.exr", *arguments))
         alone, watched = self.picture("alone.exr"), self.picture("watched.exr")
         self.assertEqual(alone[1], watched[1])
         self.assertEqual(alone[0], watched[0])
@@ -156,9 +156,12 @@ class Serve(Live):
         return None
 
     def test_news(self):
-        process = self.begin("-t", 6, "-o", "a.exr", "--serve", 0)
-        status, page = self.ask("/")
-        self.assertEqual(status, 200)
+        process = self.begin("-t", 5, "-o", "a.exr", "--serve", 0)
+        late = time.monotonic() + 60
+        page = b""
+        while b"a.exr" not in page and time.monotonic() < late:  # until the scene has been read
+            status, page = self.ask("/")
+            self.assertEqual(status, 200)
         self.assertIn(b"a.exr", page)
         first = self.state(lambda state: state["number"] > 0 and state["rate"] and state["acceptance"])
         self.assertEqual((first["width"], first["height"]), (24, 16))
