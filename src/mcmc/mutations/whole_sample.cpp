@@ -6,9 +6,10 @@
 namespace h2mc {
 
 WholeSample& WholeSamples::around(ChainState& state, MutationContext& context) {
-  auto& [whole, known] = state.derived[slot_];
-  if (known) return whole;
-  known = true;
+  auto& slot = state.derived[slot_];
+  WholeSample& whole = slot.value;
+  if (slot.known) return whole;
+  slot.known = true;
   whole.coordinates.begin(places());
   whole.connections.clear();
   NewCoordinates coordinates(whole.coordinates, *context.random);
