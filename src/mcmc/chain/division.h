@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "render/core/index.h"
+
 namespace h2mc {
 
 // The octave of a state's target, floor(log2(target / mean)), lies between minus and plus this.
@@ -16,9 +18,7 @@ inline int octaveOf(double ratio) {
   return std::clamp(std::ilogb(ratio), -kHighestOctave, kHighestOctave);
 }
 // Its index in tables.
-inline std::size_t octaveRow(int octave) {
-  return static_cast<std::size_t>(octave + kHighestOctave);
-}
+inline std::size_t octaveRow(int octave) { return at(octave + kHighestOctave); }
 
 // Paths are estimated twice, by the states of chains and by independent samples: of a path of target f samples take the
 // share level / (f + level), states the rest. Any level is right, and a function of f as well as a number. Where there
