@@ -102,15 +102,15 @@ licences() {
   return 1
 }
 
-# One file in twenty-eight, others each day, and those of the last twenty commits, eight at most. Running out of time is
-# a failure: a file that nobody has looked at has not passed. What is generated has to be there; precompiled
+# A fourteenth of the files, another one each day, and those of the last twenty commits, twelve at most. Running out of
+# time is a failure: a file that nobody has looked at has not passed. What is generated has to be there; precompiled
 # headers must not be asked for, as the program itself is not built there.
 tidy() {
-  local parts=28 limit=900 all recent files=() i
+  local parts=14 limit=900 all recent files=() i
   build clang h2mc_version_header || return
   mapfile -t all < <(cd "$root" && find src -name '*.cpp' | sort)
   mapfile -t recent < <(git -C "$root" log -20 --format= --name-only -- 'src/*.cpp' 2>/dev/null | awk '!seen[$0]++' |
-    while IFS= read -r file; do [[ -e $root/$file ]] && printf '%s\n' "$file"; done | head -n 8)
+    while IFS= read -r file; do [[ -e $root/$file ]] && printf '%s\n' "$file"; done | head -n 12)
   if [[ ${H2MC_TIDY-} == all ]]; then parts=1 limit=0; fi
   for i in "${!all[@]}"; do
     ((i % parts == $(date +%s) / 86400 % parts)) && files+=("${all[i]}")
