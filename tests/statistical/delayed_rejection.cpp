@@ -16,41 +16,22 @@ namespace {
 // Bold first tries, which are often refused.
 constexpr float kFirst = 0.05f, kSecond = 0.01f;
 
-ExactnessReport reportOn(const World& world, KernelMixture& kernels, int samples) {
-  ExactnessPlan plan;
-  plan.verdicts = kVerdicts;
-  plan.samples = samples;
-  const ExactnessReport report = checkExactness(world.target, kernels, 1, plan);
-  std::printf("%d samples: acceptance %.3f, smallest p %.2g\n", samples, report.acceptance,
-              report.smallestP);
-  return report;
-}
-
-KernelMixture alone(const World& world, std::unique_ptr<Mutation> mutation) {
-  KernelMixture kernels;
-  kernels.large = std::make_unique<MultiplexedLargeStep>(world.target, world.techniques);
-  kernels.largeProbability = 0;
-  kernels.small.push_back({std::move(mutation), 1, {}});
-  return kernels;
-}
-
 // First and second try weigh with which probability their states choose the kernel.
 TEST(DelayedRejection, KeepsTheTargetWhateverSharesAreLearnedSlow) {
   for (const ExactnessScene& scene : exactnessScenes()) {
     const World world(scene);
     SlotNumbers slots;
     HamiltonianSettings settings;
-    KernelMixture kernels =
-        alone(world, std::make_unique<DelayedRejection>(
-                         world.target, "delayed", kFirst,
-                         std::make_unique<HamiltonianStep>(world.target, settings, slots)));
+    KernelMixture kernels = world.alone(std::make_unique<DelayedRejection>(
+        world.target, "delayed", kFirst,
+        std::make_unique<HamiltonianStep>(world.target, settings, slots)));
     kernels.small.push_back(
         {std::make_unique<IsotropicStep>(world.target, StepShape::kGaussian, kSecond), 1, {}});
     for (KernelMixture::Small& s : kernels.small) s = {std::move(s.mutation), 0.5, 1};
     kernels.meanTarget = ExactStarts(world.target, 1, 5).meanTarget();
     kernels.largeProbability = 0.1;
     learnLeaps(kernels);
-    const ExactnessReport report = reportOn(world, kernels, 200000);
+    const ExactnessReport report = reportOn(world.target, kernels);
     EXPECT_TRUE(report.passed) << scene.name << "\n" << report.text;
   }
 }

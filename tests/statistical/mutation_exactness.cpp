@@ -28,10 +28,8 @@ TEST_P(MutationAlone, KeepsTheTargetSlow) {
   SlotNumbers slots;
   KernelMixture kernels = world.alone(kernel, slots);
   ExactnessPlan plan;
-  plan.verdicts = kVerdicts;
   plan.learnAfter = plan.samples / 10;
-  const ExactnessReport report = checkExactness(world.target, kernels, 1, plan);
-  std::printf("acceptance %.3f, smallest p %.2g\n", report.acceptance, report.smallestP);
+  const ExactnessReport report = reportOn(world.target, kernels, plan);
   EXPECT_TRUE(report.passed) << report.text;
   EXPECT_GT(report.acceptance, 0.02);
 }
@@ -91,10 +89,7 @@ TEST_P(MethodMixture, KeepsTheTargetSlow) {
     kernels.dividesByHolding = true;
   }
   learnLeaps(kernels);
-  ExactnessPlan plan;
-  plan.verdicts = kVerdicts;
-  const ExactnessReport report = checkExactness(world.target, kernels, 1, plan);
-  std::printf("acceptance %.3f, smallest p %.2g\n", report.acceptance, report.smallestP);
+  const ExactnessReport report = reportOn(world.target, kernels);
   EXPECT_TRUE(report.passed) << report.text;
 }
 
@@ -146,11 +141,8 @@ TEST(TemperedTarget, IsKeptByTheSameKernelsSlow) {
     KernelMixture kernels =
         makeKernels(method, target, world.techniques, OptionSet(method.plugin()), 1);
     kernels.meanTarget = ExactStarts(target, 1, 5).meanTarget();
-    ExactnessPlan plan;
-    plan.verdicts = kVerdicts;
-    const ExactnessReport report = checkExactness(target, kernels, 1, plan);
-    std::printf("%s: acceptance %.3f, smallest p %.2g\n", std::string(method.name).c_str(),
-                report.acceptance, report.smallestP);
+    std::printf("%s, ", std::string(method.name).c_str());
+    const ExactnessReport report = reportOn(target, kernels);
     EXPECT_TRUE(report.passed) << method.name << "\n" << report.text;
   }
 }
@@ -211,15 +203,11 @@ ExactnessReport reportOn(const World& world, const Kernel& kernel, Mistake mista
     inner = std::move(kernels.small[0].mutation);
   auto mistaken = std::make_unique<Mistaken>(std::move(inner), mistake);
   const Mistaken& watched = *mistaken;
-  kernels.large = std::make_unique<MultiplexedLargeStep>(world.target, world.techniques);
-  kernels.largeProbability = 0;
-  kernels.small.clear();
-  kernels.small.push_back({std::move(mistaken), 1, {}});
+  kernels = world.alone(std::move(mistaken));
   ExactnessPlan plan;
-  plan.verdicts = kVerdicts;
   plan.samples = samples;
   if (kernel.large) plan.steps = 60;  // few are accepted
-  const ExactnessReport report = checkExactness(world.target, kernels, 1, plan);
+  const ExactnessReport report = reportOn(world.target, kernels, plan);
   // Where there is no ratio, leaving it out is no mistake.
   harmless = mistake == Mistake::kNoJacobian && !watched.hadRatio();
   return report;

@@ -118,17 +118,10 @@ std::vector<Planted> planted() {
 // A kernel alone, without mistakes or with them.
 ExactnessReport reportOn(const World& world, const Make& make, int samples) {
   SlotNumbers slots;
-  KernelMixture kernels;
-  kernels.large = std::make_unique<MultiplexedLargeStep>(world.target, world.techniques);
-  kernels.largeProbability = 0;
-  kernels.small.push_back({make(world.target, slots), 1, {}});
+  KernelMixture kernels = world.alone(make(world.target, slots));
   ExactnessPlan plan;
-  plan.verdicts = kVerdicts;
   plan.samples = samples;
-  const ExactnessReport report = checkExactness(world.target, kernels, 1, plan);
-  std::printf("%d samples: acceptance %.3f, smallest p %.2g\n", samples, report.acceptance,
-              report.smallestP);
-  return report;
+  return reportOn(world.target, kernels, plan);
 }
 
 // Where almost nothing counts as rough, so that lobes of all widths are traced through, and where all does.

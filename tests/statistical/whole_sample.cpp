@@ -10,17 +10,6 @@
 namespace h2mc::test {
 namespace {
 
-ExactnessReport reportOn(const World& world, KernelMixture& kernels, int samples, int steps) {
-  ExactnessPlan plan;
-  plan.verdicts = kVerdicts;
-  plan.samples = samples;
-  plan.steps = steps;
-  const ExactnessReport report = checkExactness(world.target, kernels, 1, plan);
-  std::printf("%d samples: acceptance %.3f, smallest p %.2g\n", samples, report.acceptance,
-              report.smallestP);
-  return report;
-}
-
 // What a chain has derived from its state it forgets now and then: here twice.
 TEST(WholeSample, IsDrawnAnewAroundThePathSlow) {
   for (const ExactnessScene& scene : exactnessScenes()) {
@@ -28,7 +17,10 @@ TEST(WholeSample, IsDrawnAnewAroundThePathSlow) {
     const MetropolisMethod& method = methodNamed("pssmlt");
     KernelMixture kernels =
         makeKernels(method, world.target, world.techniques, OptionSet(method.plugin()), 1);
-    const ExactnessReport report = reportOn(world, kernels, 10000, 2 * Chain::kDerivedAnew + 20);
+    ExactnessPlan plan;
+    plan.samples = 10000;
+    plan.steps = 2 * Chain::kDerivedAnew + 20;
+    const ExactnessReport report = reportOn(world.target, kernels, plan);
     EXPECT_TRUE(report.passed) << scene.name << "\n" << report.text;
   }
 }
@@ -55,12 +47,12 @@ bool isSeen() {
   SlotNumbers slots;
   const OptionSet options;
   const MutationSetup setup{world.target, world.techniques, 1, options, slots};
-  KernelMixture kernels;
-  kernels.large = std::make_unique<MultiplexedLargeStep>(world.target, world.techniques);
-  kernels.largeProbability = 0;
-  kernels.small.push_back({std::make_unique<Step>(setup, WholeSampleStep::Settings{}), 1, {}});
-  for (const int samples : {300000, 2000000})
-    if (!reportOn(world, kernels, samples, 20).passed) return true;
+  KernelMixture kernels = world.alone(std::make_unique<Step>(setup, WholeSampleStep::Settings{}));
+  ExactnessPlan plan;
+  for (const int samples : {300000, 2000000}) {
+    plan.samples = samples;
+    if (!reportOn(world.target, kernels, plan).passed) return true;
+  }
   return false;
 }
 

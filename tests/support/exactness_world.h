@@ -2,6 +2,7 @@
 // Each mutation of the lists by itself, on a scene of the tests of exactness.
 #pragma once
 
+#include <cstdio>
 #include <memory>
 
 #include "exactness.h"
@@ -88,16 +89,29 @@ struct World {
     const auto make = [&](const auto& plugin) {
       return plugin.create(setup(optionsOf(plugin, kernel)));
     };
-    if (kernel.large) {
-      kernels.large = make(largeStepNamed(kernel.mutation));
-      kernels.largeProbability = 1;
-    } else {
-      kernels.large = std::make_unique<MultiplexedLargeStep>(target, techniques);
-      kernels.largeProbability = 0;
-      kernels.small.push_back({make(mutationNamed(kernel.mutation)), 1, {}});
-    }
+    if (!kernel.large) return alone(make(mutationNamed(kernel.mutation)));
+    kernels.large = make(largeStepNamed(kernel.mutation));
+    kernels.largeProbability = 1;
+    return kernels;
+  }
+  // Chains that make this step and no other.
+  KernelMixture alone(std::unique_ptr<Mutation> mutation) const {
+    KernelMixture kernels;
+    kernels.large = std::make_unique<MultiplexedLargeStep>(target, techniques);
+    kernels.largeProbability = 0;
+    kernels.small.push_back({std::move(mutation), 1, {}});
     return kernels;
   }
 };
+
+// Whether chains keep the target, as one of kVerdicts; prints in short what was found.
+inline ExactnessReport reportOn(const PathTarget& target, KernelMixture& kernels,
+                                ExactnessPlan plan = {}) {
+  plan.verdicts = kVerdicts;
+  ExactnessReport report = checkExactness(target, kernels, 1, plan);
+  std::printf("%d samples: acceptance %.3f, smallest p %.2g\n", plan.samples, report.acceptance,
+              report.smallestP);
+  return report;
+}
 
 }  // namespace h2mc::test

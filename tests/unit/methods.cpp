@@ -39,6 +39,17 @@ TEST(Methods, AnOptionBelongsToTheMethodsThatHaveItsMutation) {
   EXPECT_THROW(checkOptions(methodNamed("mmlt"), options), OptionError);
 }
 
+// What would change nothing is refused.
+TEST(Methods, OptionsThatDoNotGoTogether) {
+  const Scene scene = SceneFolder().read(sceneWith(""));
+  for (const char* wish :
+       {"h2mc:delayedRejection=true,isotropicProbability=0.2",
+        "h2mc:divisionByHolding=true,baseSamples=0", "mmlt-2014:divisionByHolding=true"})
+    EXPECT_THROW(chooseIntegrator(wish, scene), OptionError) << wish;
+  for (const char* wish : {"h2mc:delayedRejection=true", "mmlt:divisionByHolding=true"})
+    EXPECT_NO_THROW(chooseIntegrator(wish, scene)) << wish;
+}
+
 TEST(Presets, SetWhatTheySayAndTheCommandLineGoesBefore) {
   const Scene scene = SceneFolder().read(
       sceneWith("<integrator type=\"mmlt\"><integer name=\"maxDepth\" value=\"7\"/></integrator>"));

@@ -118,9 +118,9 @@ class OfRenders : public ::testing::TestWithParam<const char*> {
     return request;
   }
   static RenderResult render(const Scene& scene, const RenderRequest& request,
-                             const char* chains = "16") {
+                             const char* chains = "16", const char* baseSamples = "0.5") {
     return test::renderTiny(GetParam(), scene, request,
-                            {{"maxDepth", "5"}, {"chains", chains}, {"baseSamples", "0.5"}});
+                            {{"maxDepth", "5"}, {"chains", chains}, {"baseSamples", baseSamples}});
   }
 };
 
@@ -130,7 +130,7 @@ TEST_P(OfRenders, VarianceIsTheSpreadOfManyRendersSlow) {
   Spread spread;
   for (int run = 0; run < 60; ++run) {
     const RenderResult result =
-        render(scene, request(static_cast<std::uint64_t>(run) + 1, 40), "64");
+        render(scene, request(static_cast<std::uint64_t>(run) + 1, 40), "64", "-1");
     spread.add(result.image, result.variance);
   }
   std::printf("%s: estimated over shown variance %.3f\n", GetParam(), spread.ratio());

@@ -95,7 +95,8 @@ void Chain::propose(const KernelMixture::Choice& choice, KernelMixture& kernels,
 
   // Each state counts with its expected weight [Veach 1997, section 11.4].
   const int length = current_->path.technique.length();
-  const int octave = kernels.octave(current_->path.target);
+  const std::size_t row = octaveRow(kernels.octave(current_->path.target));
+  double& departures = statistics.departures[row];
   if (kind == 0) {
     const double estimate = kernels.large->lastEstimate();
     statistics.largeSteps.add(estimate);
@@ -104,24 +105,24 @@ void Chain::propose(const KernelMixture::Choice& choice, KernelMixture& kernels,
   }
   if (mutation.triesAgain()) {
     // There is a second try where the first is refused: what is left of the weight is that of the state then.
-    if (accept(proposed_, acceptance, kernels, mutation, films.states, statistics))
+    if (accept(proposed_, acceptance, kernels, mutation, films.states, departures))
       acceptance = 1;
     else
-      acceptance = proposeAgain(choice, acceptance, kernels, films, statistics, context);
+      acceptance = proposeAgain(choice, acceptance, kernels, films, statistics.secondTries[kind],
+                                departures, context);
   } else {
     weight_ += 1 - acceptance;
-    accept(proposed_, acceptance, kernels, mutation, films.states, statistics);
+    accept(proposed_, acceptance, kernels, mutation, films.states, departures);
   }
   statistics.acceptance[kind][at(length)].add(acceptance);
-  statistics.octaves[kind][octaveRow(octave)].add(acceptance);
+  statistics.octaves[kind][row].add(acceptance);
 }
 
 bool Chain::accept(std::unique_ptr<ChainState>& proposed, double acceptance, KernelMixture& kernels,
-                   Mutation& mutation, StateFilm& film, ChainStatistics& statistics) {
+                   Mutation& mutation, StateFilm& film, double& departures) {
   if (!(acceptance > 0)) return false;
   const Path& path = proposed->path;
-  if (kernels.departs(current_->path, path))
-    statistics.departures[octaveRow(kernels.octave(current_->path.target))] += acceptance;
+  if (kernels.departs(current_->path, path)) departures += acceptance;
   mutation.splatProposal(*proposed, acceptance, kernels.division(path.technique), film);
   film.land(path.filmX, path.filmY, acceptance);
   if (!(random_.uniform() < acceptance)) return false;
@@ -132,8 +133,8 @@ bool Chain::accept(std::unique_ptr<ChainState>& proposed, double acceptance, Ker
 }
 
 double Chain::proposeAgain(const KernelMixture::Choice& choice, double first,
-                           KernelMixture& kernels, ChainFilms& films, ChainStatistics& statistics,
-                           MutationContext& context) {
+                           KernelMixture& kernels, ChainFilms& films, AcceptanceCount& count,
+                           double& departures, MutationContext& context) {
   for (auto* state : {&second_, &back_}) {
     if (!*state) *state = std::make_unique<ChainState>(target_.maxLength());
     (*state)->forget();
@@ -160,9 +161,9 @@ double Chain::proposeAgain(const KernelMixture::Choice& choice, double first,
   for (const auto* state : {&second_, &back_})
     if (!(*state)->path.finite)
       context.notFinite.add((*state)->path.technique, (*state)->path.sample);
-  statistics.secondTries[choice.kind].add(acceptance);
+  count.add(acceptance);
   weight_ += 1 - acceptance;
-  accept(second_, acceptance, kernels, mutation, films.states, statistics);
+  accept(second_, acceptance, kernels, mutation, films.states, departures);
   return acceptance;
 }
 

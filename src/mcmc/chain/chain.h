@@ -40,12 +40,14 @@ class Chain {
                ChainStatistics& statistics, MutationContext& context);
 
   // After the proposal was refused that was to be accepted with probability `first`. Returns with which the second one
-  // is.
+  // is, which it counts.
   double proposeAgain(const KernelMixture::Choice& choice, double first, KernelMixture& kernels,
-                      ChainFilms& films, ChainStatistics& statistics, MutationContext& context);
-  // With probability `acceptance` goes on from the state, splatted with that weight.
+                      ChainFilms& films, AcceptanceCount& count, double& departures,
+                      MutationContext& context);
+  // With probability `acceptance` goes on from the state, splatted with that weight; adds it to `departures` if the
+  // state is more than a pixel away.
   bool accept(std::unique_ptr<ChainState>& proposed, double acceptance, KernelMixture& kernels,
-              Mutation& mutation, StateFilm& film, ChainStatistics& statistics);
+              Mutation& mutation, StateFilm& film, double& departures);
 
   const Target& target_;
   std::unique_ptr<ChainState> current_, proposed_;

@@ -9,6 +9,10 @@ namespace {
 void check(const OptionSet& options) {
   requireRange(options, "lensProbability", 0, 1);
   requireRange(options, "isotropicProbability", -1, 1);
+  if (options.boolean("delayedRejection") && options.number("isotropicProbability") >= 0)
+    throw OptionError(
+        "expected isotropicProbability=-1 with delayedRejection=true: the isotropic step is then "
+        "the first try of all");
 }
 
 }  // namespace

@@ -48,6 +48,10 @@ void checkOptions(const MetropolisMethod& method, const OptionSet& options) {
   if (options.string("largeStep") != "bidirectional" && options.number("baseSamples") > 0)
     throw OptionError("expected baseSamples=0 with largeStep=" + options.string("largeStep") +
                       ": base samples stand beside bidirectional large steps");
+  if (options.boolean("divisionByHolding") &&
+      (options.string("largeStep") != "bidirectional" || options.number("baseSamples") == 0))
+    throw OptionError(
+        "expected divisionByHolding=false without base samples: there is nothing to divide with");
   requireRange(options, "largeStepProbability", 0, 1);
   for (const MetropolisMethod::Step& step : method.steps(options))
     if (const auto check = mutationNamed(step.mutation).check) check(options);
