@@ -53,12 +53,14 @@ RenderResult render(const Scene& scene, const std::string& wish, long long perPi
 TEST(Noise, OfEverySourceIsANumber) {
   const Scene scene = lampAndWall();
   for (const char* wish :
-       {"mlt-1997", "mmlt-2014", "pssmlt-2002", "h2mc", "h2mc:baseSamples=0", "lmc:baseSamples=2"})
-    for (const auto& [source, noise] : render(scene, wish, 8).statistics.at("noise").items()) {
+       {"mlt-1997", "mmlt-2014", "pssmlt-2002", "h2mc", "h2mc:baseSamples=0", "lmc:baseSamples=2"}) {
+    const RenderResult result = render(scene, wish, 8);
+    for (const auto& [source, noise] : result.statistics.at("noise").items()) {
       EXPECT_TRUE(noise.is_number() && std::isfinite(noise.get<double>()))
           << wish << ": " << source;
       EXPECT_GE(noise.get<double>(), 0) << wish << ": " << source;
     }
+  }
 }
 
 // Paths of one edge are lamps seen directly and nothing else: the wall is black.
