@@ -147,7 +147,7 @@ if [[ $quick == no ]]; then
   else
     if step "build: clang with address and undefined-behaviour sanitizers, warnings are errors" \
         build asan all -DH2MC_WERROR=ON "-DH2MC_TEST_FOLDERS=unit;derivative;stress;statistical;fuzz" \
-        -DH2MC_BUILD_BENCHMARKS=OFF; then
+        -DH2MC_BUILD_BENCHMARKS=OFF -DCMAKE_UNITY_BUILD=ON; then
       step "tests: unit, derivative, stress, statistical, cli and fuzz under the sanitizers" asan_tests
     else
       skip "tests: unit, derivative, stress, statistical, cli and fuzz under the sanitizers" "not built"

@@ -33,8 +33,8 @@ void printHead(const char* shell) {
 }
 
 // The body of a shell's loop over the words before the cursor, by `line`: (command so far, word, command then).
-using Step = std::function<void(const std::string&, const std::string&, const std::string&)>;
-void forEachStep(const CommandEntry& tree, const Step& step) {
+using StepWriter = std::function<void(const std::string&, const std::string&, const std::string&)>;
+void forEachStep(const CommandEntry& tree, const StepWriter& step) {
   for (const CommandEntry* command : allCommands(tree))
     for (const CommandEntry& below : command->commands)
       step(command->name, lastWord(below), below.name);

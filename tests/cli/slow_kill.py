@@ -28,14 +28,13 @@ class Kill(_h2mc.Test):
                 began = time.monotonic()
                 subprocess.run([*command, "whole.exr"], cwd=self.folder, check=True)
                 whole = time.monotonic() - began
-                for _ in range(2):
-                    kills += self.render_and_kill([*command, "a.exr"], moments, whole)
-                    self.assertEqual(self.picture("a.exr"), self.picture("whole.exr"))
-                    self.assertEqual(self.files(), ["a.exr", "a.state", "scene.xml", "whole.exr"])
-                    os.remove(self.path("a.state"))
-                    os.remove(self.path("a.exr"))
+                kills += self.render_and_kill([*command, "a.exr"], moments, whole)
+                self.assertEqual(self.picture("a.exr"), self.picture("whole.exr"))
+                self.assertEqual(self.files(), ["a.exr", "a.state", "scene.xml", "whole.exr"])
+                os.remove(self.path("a.state"))
+                os.remove(self.path("a.exr"))
         print("killed", kills, "times")
-        self.assertGreaterEqual(kills, 20)  # a hundred on an idle machine
+        self.assertGreaterEqual(kills, 10)  # fifty on an idle machine
 
     def render_and_kill(self, command, moments, whole):
         """Returns how many times it was killed."""

@@ -60,10 +60,13 @@ class Page(_browser.Page):
         canvas = self.one(".view canvas")
         self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", canvas)
         ActionChains(self.driver).move_to_element(canvas).perform()
-        head = self.one("#readout [data-x]")
-        self.assertAlmostEqual(int(head.get_attribute("data-x")), 48, delta=2)
-        self.assertAlmostEqual(int(head.get_attribute("data-y")), 32, delta=2)
-        values = [float(cell.get_attribute("data-value")) for cell in self.all("#readout [data-value]")]
+        # In one go, as news replace the elements.
+        x, y, values = self.driver.execute_script("""
+            const head = document.querySelector("#readout [data-x]").dataset;
+            const cells = [...document.querySelectorAll("#readout [data-value]")];
+            return [+head.x, +head.y, cells.map((cell) => +cell.dataset.value)];""")
+        self.assertAlmostEqual(x, 48, delta=2)
+        self.assertAlmostEqual(y, 32, delta=2)
         self.assertEqual(len(values), 5)
         self.assertTrue(0 < values[3] < 4 and 0 < values[4] < values[3], values)
         grey = self.shown()

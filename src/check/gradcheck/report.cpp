@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "check/gradcheck/verdict_names.h"
 #include "render/core/index.h"
 #include "render/path/path_text.h"
 #include "render/path/replay_double.h"
@@ -201,17 +202,6 @@ json histogramsOf(const GradcheckSettings& settings, const GradcheckResult& resu
            return has ? Errors(f.gradient, f.hessian) : Errors(-1, -1);
          });
   return histograms;
-}
-
-const char* nameOf(ad::Verdict v) {
-  constexpr const char* kNames[] = {"agrees", "difference noise", "kink nearby",
-                                    "out of tolerance"};
-  return kNames[at(v)];
-}
-const char* nameOf(FormVerdict v) {
-  constexpr const char* kNames[] = {"agrees", "rounding", "not finite", "not supported",
-                                    "out of tolerance"};
-  return kNames[at(v)];
 }
 
 // The sweep of steps behind the entry with the largest error.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "check/gradcheck/report.h"
+#include "check/gradcheck/verdict_names.h"
 #include "render/core/index.h"
 #include "render/path/path_text.h"
 #include "render/path/path_vertices.h"
@@ -77,15 +78,10 @@ std::string describeVertices(const Scene& scene, const Path& path) {
   return text;
 }
 
-const char* nameOf(ad::Verdict v) {
-  constexpr const char* kNames[] = {"agrees", "difference noise", "kink nearby",
-                                    "OUT OF TOLERANCE"};
-  return kNames[at(v)];
-}
-const char* nameOf(FormVerdict v) {
-  constexpr const char* kNames[] = {"agrees", "rounding", "not finite", "not supported",
-                                    "OUT OF TOLERANCE"};
-  return kNames[at(v)];
+// In capitals where it is wrong.
+template <class V>
+const char* markedName(V verdict) {
+  return verdict == V::kWrong ? "OUT OF TOLERANCE" : nameOf(verdict);
 }
 
 std::string entryLine(const std::string& name, const ad::EntryCheck& e,
@@ -93,7 +89,7 @@ std::string entryLine(const std::string& name, const ad::EntryCheck& e,
   std::string line = fmt::format("  {:<8} {:>20.12g} {:>20.12g} {:>9.1e} {:>9.1e}", name, e.exact,
                                  e.difference, e.error / e.scale, e.relative);
   for (const double x : floats) line += fmt::format(" {:>14.7g}", x);
-  return line + fmt::format("  {}\n", nameOf(e.verdict));
+  return line + fmt::format("  {}\n", markedName(e.verdict));
 }
 
 }  // namespace
@@ -147,7 +143,7 @@ std::string describePath(const Scene& scene, const SampledPath& sampled,
     const FormCheck& f = result.forms[k];
     text +=
         fmt::format("float, {} form: {}; errors: value {:.2e}, gradient {:.2e}, Hessian {:.2e}\n",
-                    settings.forms[k].name, nameOf(f.verdict), f.value, f.gradient, f.hessian);
+                    settings.forms[k].name, markedName(f.verdict), f.value, f.gradient, f.hessian);
     ad::DerivativeValues values;
     if (!settings.forms[k].differentiate(scene, path, values)) continue;
     names += fmt::format(" {:>14}", settings.forms[k].name);
@@ -155,7 +151,7 @@ std::string describePath(const Scene& scene, const SampledPath& sampled,
   }
   if (!result.finite) return text + "double derivatives or the value are not finite\n";
   text += fmt::format("double AD: {}; errors: value {:.2e}, gradient {:.2e}, Hessian {:.2e}\n",
-                      nameOf(result.verdict), result.valueError, result.gradientError,
+                      markedName(result.verdict), result.valueError, result.gradientError,
                       result.hessianError);
   text += fmt::format("  {:<8} {:>20} {:>20} {:>9} {:>9}{}\n", "entry", "double AD", "differences",
                       "est.error", "rel.error", names);

@@ -19,7 +19,7 @@ constexpr double kRounding = 1e-4;
 // What the short chains of a run may be off in their balances, relative to the mean: all runs of that
 // length alike, so that it can't be seen in their scatter.
 constexpr double kShortness = 0.01;
-constexpr int kChains = 64;
+constexpr int kPictureChains = 64;
 // Most samples of a bootstrap, which can't be interrupted.
 constexpr long long kMostBootstrap = 200000;
 
@@ -61,7 +61,7 @@ PictureComparison comparePictures(const Scene& scene, const PictureSettings& set
   const std::string wishes[2] = {
       // The chains do everything.
       fmt::format("h2mc:maxDepth={},chains={},bootstrapSamples={},directSamples=0",
-                  settings.maxLength, kChains, std::min(all, kMostBootstrap)),
+                  settings.maxLength, kPictureChains, std::min(all, kMostBootstrap)),
       fmt::format("bdpt:maxDepth={}", settings.maxLength)};
   for (std::size_t which = 0; which < 2; ++which) {
     const auto renderer = chooseIntegrator(wishes[which], scene).integrator;

@@ -9,7 +9,7 @@ namespace h2mc {
 namespace {
 
 // relMSE, by which renderers are compared, has the square of the same floor.
-constexpr double kFloor = 0.1;
+constexpr double kMapFloor = 0.1;
 
 // [1 2 1] / 4 along rows of `length` numbers `stride` apart, the ends repeated.
 void blurLines(std::vector<double>& values, int lines, int length, int lineStride, int stride) {
@@ -48,7 +48,7 @@ ImportanceMap::ImportanceMap(const Image& picture, const Image& sampled, int cel
   for (std::size_t k = 0; k < cells; ++k) mean[k] /= count[k];
   blurLines(mean, rows_, columns_, columns_, 1);
   blurLines(mean, columns_, rows_, 1, columns_);
-  const double floor = kFloor * total / (static_cast<double>(picture.width) * picture.height);
+  const double floor = kMapFloor * total / (static_cast<double>(picture.width) * picture.height);
   for (const double m : mean) values_.push_back(static_cast<float>(floor / (m + floor)));
 
   double plain = 0, weighted = 0;

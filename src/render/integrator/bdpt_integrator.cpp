@@ -47,7 +47,7 @@ class BdptIntegrator final : public Integrator {
   int maxDepth_;
 };
 
-constexpr Parameter kParameters[] = {
+constexpr Parameter kBdptParameters[] = {
     kMaxDepthParameter,
     kMinDepthParameter,
     {"samplesPerPixel", ParameterType::kInteger, "64",
@@ -57,7 +57,7 @@ constexpr Parameter kParameters[] = {
 }  // namespace
 
 IntegratorFactory bdptIntegrator() {
-  return {{"bdpt", "bidirectional path tracing, all techniques, power heuristic", kParameters},
+  return {{"bdpt", "bidirectional path tracing, all techniques, power heuristic", kBdptParameters},
           [](const OptionSet& options) -> std::unique_ptr<Integrator> {
             return std::make_unique<BdptIntegrator>(options);
           }};

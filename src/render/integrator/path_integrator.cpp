@@ -117,7 +117,7 @@ class PathIntegrator final : public Integrator {
   PathOptions path_;
 };
 
-constexpr Parameter kParameters[] = {
+constexpr Parameter kPathParameters[] = {
     kMaxDepthParameter,
     kMinDepthParameter,
     {"rrDepth", ParameterType::kInteger, "5", "length from which Russian roulette may end a path"},
@@ -133,7 +133,7 @@ std::unique_ptr<PixelSampler> makePathSampler(const PathOptions& options) {
 
 IntegratorFactory pathIntegrator() {
   return {{"path", "path tracing with next-event estimation and multiple importance sampling",
-           kParameters},
+           kPathParameters},
           [](const OptionSet& options) -> std::unique_ptr<Integrator> {
             return std::make_unique<PathIntegrator>(options);
           }};

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 #include "render/core/index.h"
@@ -13,7 +12,6 @@
 namespace h2mc {
 namespace {
 
-constexpr double kPiD = std::numbers::pi;
 // The model's RGB has the sums of the CIE's matching functions in it: divided by that of y, white is 1.
 constexpr double kObserver = 106.856980;
 

@@ -5,10 +5,13 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 
 #include "render/core/types.h"
 
 namespace h2mc {
+
+inline constexpr double kPiD = std::numbers::pi;
 
 // Where and when, for sunDirectionAt().
 struct PlaceAndTime {

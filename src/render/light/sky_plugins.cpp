@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "render/light/common_parameters.h"
 #include "render/light/environment_transform.h"
@@ -16,8 +15,6 @@
 
 namespace h2mc {
 namespace {
-
-constexpr double kPiD = std::numbers::pi;
 
 constexpr Parameter kTurbidity{"turbidity", ParameterType::kNumber, "3",
                                "how much haze there is, 1 to 10"};

@@ -36,6 +36,10 @@ struct Parameter {
   bool unnamed = false;             // for textures: the one inside, whatever its name
 };
 
+constexpr Parameter ignoredParameter(std::string_view name, ParameterType type) {
+  return {name, type, "", "accepted and not used", "", "", true};
+}
+
 // What a plugin element may hold besides parameters.
 enum class Nested : unsigned {
   kNone = 0,

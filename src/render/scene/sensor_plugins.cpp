@@ -9,10 +9,6 @@ namespace {
 
 using enum ParameterType;
 
-constexpr Parameter ignoredParameter(std::string_view name, ParameterType type) {
-  return {name, type, "", "accepted and not used", "", "", true};
-}
-
 constexpr Parameter kPerspective[] = {
     {"toWorld", kTransform, "", "from camera to world space"},
     {"fov", kNumber, "0", "field of view, 1e-4 to 179.9 degrees"},

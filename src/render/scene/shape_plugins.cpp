@@ -20,9 +20,6 @@ constexpr Parameter kFilename = {"filename", kString, "", "the mesh's file"};
 constexpr Parameter kFaceNormals = {"faceNormals", kBoolean, "false",
                                     "flat faces: no interpolated normals"};
 constexpr Parameter kFlipTexCoords = {"flipTexCoords", kBoolean, "true", "v grows upwards"};
-constexpr Parameter ignoredParameter(std::string_view name, ParameterType type) {
-  return {name, type, "", "accepted and not used", "", "", true};
-}
 constexpr Parameter kMaxSmoothAngle = ignoredParameter("maxSmoothAngle", kNumber);
 
 constexpr Parameter kSerialized[] = {

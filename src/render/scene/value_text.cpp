@@ -12,8 +12,6 @@
 namespace h2mc {
 namespace {
 
-bool isSpace(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
-
 std::string quoted(std::string_view text) {
   constexpr std::size_t kMost = 40;
   if (text.size() > kMost) return "\"" + std::string(text.substr(0, kMost)) + "...\"";

@@ -18,6 +18,8 @@ class ValueError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// XML's white space.
+constexpr bool isSpace(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 std::string_view trimmed(std::string_view text);
 bool isOneOf(std::string_view name, std::initializer_list<std::string_view> names);
 

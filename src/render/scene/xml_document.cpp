@@ -6,14 +6,13 @@
 #include <pugixml.hpp>
 
 #include "render/scene/suggestion.h"
+#include "render/scene/value_text.h"
 
 namespace h2mc {
 namespace {
 
 constexpr int kDeepest = 64;
 constexpr std::size_t kMostAttributes = 64;
-
-bool isSpace(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
 // The parser gives no places of attributes: they are found again in the start tag's text, which is
 // known to be well formed.
