@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct InspectOptions {
-  std::string scene, pixel, output, json, integrator, path = "chain", replay, confine;
+  std::string scene, pixel, output, json, integrator, path = "ridge", replay, confine;
   std::vector<std::string> defines;
   std::optional<std::uint64_t> seed;
   InspectSettings settings;
@@ -87,7 +87,9 @@ int run(const InspectOptions& options) {
   if (options.quiet) spdlog::set_level(spdlog::level::err);
   // What is wrong with the command line is said before a scene is read.
   InspectSettings settings = options.settings;
-  settings.choice = options.path == "largest" ? PathChoice::kLargest : PathChoice::kChain;
+  settings.choice = options.path == "largest" ? PathChoice::kLargest
+                    : options.path == "chain" ? PathChoice::kChain
+                                              : PathChoice::kRidge;
   if (!options.replay.empty()) {
     settings.choice = PathChoice::kGiven;
     const std::string wrong = parsePathText(options.replay, settings.given, settings.givenSample);
@@ -172,9 +174,10 @@ void addInspectCommand(CLI::App& app, Run& run_) {
       ->type_name("DIR");
   command
       ->add_option("--path", options->path,
-                   "Which of the pixel's paths: a state of a chain, or the one with the largest "
-                   "target that was met")
-      ->check(CLI::IsMember({"chain", "largest"}))
+                   "Which of the pixel's paths: of 32 that are drawn in proportion to the target, "
+                   "the one with the clearest ridge; a state of a chain; or the one with the "
+                   "largest target that was met")
+      ->check(CLI::IsMember({"ridge", "chain", "largest"}))
       ->capture_default_str();
   command
       ->add_option("--replay", options->replay,
@@ -185,7 +188,8 @@ void addInspectCommand(CLI::App& app, Run& run_) {
                       "or coordinates u0,u1. Default: e1,e2, or u0,u1 without derivatives");
   command
       ->add_option("--slice-size", settings.sliceSize,
-                   "Edge of the wide slices, in primary coordinates. Default: 8 sigma")
+                   "Edge of the wide slices, in primary coordinates. Default: what shows "
+                   "the ridge; 8 sigma with another --path and with --replay")
       ->check(CLI::Range(1e-6, 1.0));
   command
       ->add_option("--resolution", settings.resolution,

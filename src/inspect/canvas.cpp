@@ -5,12 +5,15 @@
 #include <array>
 #include <cmath>
 
+#include "compare/figure_file.h"
 #include "render/core/index.h"
 #include "render/image/color_encoding.h"
 
 namespace h2mc {
 namespace {
 
+// Capitals are kTextHeight high.
+constexpr double kFontSize = 19;
 constexpr int kColumns = 5, kRows = 7, kTextScale = 2;
 
 // Glyphs of 5 x 7 pixels from ' ' to '~': a number a row, the leftmost pixel its bit 4.
@@ -55,6 +58,11 @@ Vec3f rgb(Canvas::Color color) {
   return Vec3f(static_cast<float>(color >> 16 & 255), static_cast<float>(color >> 8 & 255),
                static_cast<float>(color & 255)) /
          255.f;
+}
+
+// The words in a font; nothing where there is none.
+TextMask inFont(const std::string& text) {
+  return canDrawFigures() ? textMask(text, kFontSize) : TextMask();
 }
 
 // How much of a pixel is covered whose middle lies so far inside an edge.
@@ -111,7 +119,21 @@ void Canvas::dot(double x, double y, double radius, Color color, double alpha) {
   line(x, y, x, y, 2 * radius, color, alpha);
 }
 
-void Canvas::text(int x, int y, std::string_view text, Color color) {
+int Canvas::textWidth(const std::string& text) {
+  const TextMask mask = inFont(text);
+  return mask.cover.empty() ? kTextScale * ((kColumns + 1) * static_cast<int>(text.size()) - 1)
+                            : mask.advance;
+}
+
+void Canvas::text(int x, int y, const std::string& text, Color color) {
+  if (const TextMask mask = inFont(text); !mask.cover.empty()) {
+    std::size_t i = 0;
+    for (int row = 0; row < mask.height; ++row)
+      for (int column = 0; column < mask.width; ++column, ++i)
+        pixel(x + mask.left + column, y + kTextHeight + mask.top + row, color,
+              mask.cover[i] / 255.0);
+    return;
+  }
   for (const char c : text) {
     const bool known = c >= ' ' && c <= '~';
     const Glyph& glyph = kGlyphs[known ? c - ' ' : '?' - ' '];

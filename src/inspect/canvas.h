@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include "render/image/image.h"
@@ -25,9 +25,10 @@ class Canvas {
   void line(double x0, double y0, double x1, double y1, double thickness, Color color,
             double alpha = 1);
   void dot(double x, double y, double radius, Color color, double alpha = 1);
-  // Printable ASCII, 12 pixels a character and 14 high; (x, y) is the upper left corner.
-  void text(int x, int y, std::string_view text, Color color);
-  static int textWidth(std::string_view text) { return 12 * static_cast<int>(text.size()) - 2; }
+  // Printable ASCII; (x, y) is the upper left corner of a capital. In a font where this build has cairo and the machine
+  // a font, else in letters of 5 x 7 dots.
+  void text(int x, int y, const std::string& text, Color color);
+  static int textWidth(const std::string& text);
   static constexpr int kTextHeight = 14;
 
   // Confines what is drawn to a rectangle; the whole canvas without arguments.

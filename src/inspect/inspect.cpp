@@ -8,6 +8,7 @@
 
 #include "inspect/film_preview.h"
 #include "inspect/path_search.h"
+#include "inspect/ridge.h"
 #include "mcmc/mutations/hamiltonian_step.h"
 #include "mcmc/populations/bootstrap.h"
 #include "mcmc/render/direct_lighting.h"
@@ -25,6 +26,8 @@ constexpr double kReach = 4;
 constexpr std::size_t kStrongest = 4;
 constexpr std::size_t kMostCoordinatePairs = 8;
 constexpr long long kTechniqueSamples = 20000;
+// Paths of which the one with the clearest ridge is shown.
+constexpr std::size_t kRidgeCandidates = 32;
 
 std::pair<std::string, std::string> splitPair(const std::string& text) {
   const std::size_t comma = text.find(',');
@@ -82,10 +85,16 @@ double closeHalf(const LocalModel& model, const Direction& direction) {
                            std::abs(model.driftAlong(direction.vector)));
 }
 
+// Half the edge of the wide slices.
+double wideHalf(const Scene& scene, const InspectSettings& settings, const Inspection& result) {
+  if (settings.sliceSize > 0) return settings.sliceSize / 2;
+  if (settings.choice == PathChoice::kRidge)
+    return ridgeAt(scene, result.path, result.model, settings.threads, settings.stop).half;
+  return std::min(kReach * result.model.settings.sigma, 0.5);
+}
+
 void tracePairs(const Scene& scene, const InspectSettings& settings, Inspection& result) {
-  const double sigma = result.model.settings.sigma;
-  const double wide =
-      settings.sliceSize > 0 ? settings.sliceSize / 2 : std::min(kReach * sigma, 0.5);
+  const double wide = wideHalf(scene, settings, result);
   for (const auto& [x, y] : pairNames(result.model, result.path, settings.pair)) {
     if (settings.stop && *settings.stop) return;
     InspectedPair pair{directionOf(result.model, x), directionOf(result.model, y), {}, {}};
@@ -118,8 +127,24 @@ PathLengths lengthsOf(const Scene& scene, const OptionSet& options,
   return lengths;
 }
 
+// The path, of some, around which the target is a ridge most of all; the first of those that are none.
+const Path& clearestRidge(const Scene& scene, const std::vector<Path>& paths,
+                          const HamiltonianSettings& hamiltonian, const InspectSettings& settings) {
+  const Path* best = &paths.front();
+  double most = 0;
+  for (const Path& path : paths) {
+    const LocalModel model = localModel(scene, path, hamiltonian);
+    const double strength = ridgeAt(scene, path, model, settings.threads, settings.stop).strength;
+    if (strength > most) {
+      most = strength;
+      best = &path;
+    }
+  }
+  return *best;
+}
+
 void choosePath(const SceneTarget& target, KernelMixture& kernels, const PathLengths& lengths,
-                const InspectSettings& settings, Inspection& result) {
+                const OptionSet& options, const InspectSettings& settings, Inspection& result) {
   Path& path = result.path;
   if (settings.choice == PathChoice::kGiven) {
     path.technique = settings.given;
@@ -128,10 +153,16 @@ void choosePath(const SceneTarget& target, KernelMixture& kernels, const PathLen
       throw InspectError("--replay: in this scene that path carries no light");
     return;
   }
-  for (const int length : {lengths.usual, lengths.shortest})
-    if (findPath(target, kernels, length, settings, path, result.search) ||
-        (settings.stop && *settings.stop))
-      return;
+  const bool ridge = settings.choice == PathChoice::kRidge;
+  for (const int length : {lengths.usual, lengths.shortest}) {
+    const std::vector<Path> found =
+        findPaths(target, kernels, length, settings, ridge ? kRidgeCandidates : 1, result.search);
+    if (settings.stop && *settings.stop) return;
+    if (found.empty()) continue;
+    path = ridge ? clearestRidge(target.scene(), found, hamiltonianSettings(options), settings)
+                 : found.front();
+    return;
+  }
   throw DarkPixel(fmt::format(
       "no light arrives at pixel {},{}: of {} samples through it, with paths of {} to {} edges, "
       "none contributes",
@@ -174,7 +205,7 @@ Inspection inspect(const Scene& scene, const MetropolisMethod& method, const Opt
 
   Inspection result(maxLength);
   const auto stopped = [&] { return settings.stop && *settings.stop; };
-  choosePath(target, kernels, lengths, settings, result);
+  choosePath(target, kernels, lengths, options, settings, result);
   if ((result.interrupted = stopped())) return result;
   // Large steps propose what the chain of such a path would see.
   if (result.path.technique.length() < lengths.usual) kernels = kernelsFrom(lengths.shortest);

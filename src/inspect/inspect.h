@@ -32,6 +32,7 @@ class DarkPixel : public InspectError {
 
 // Which of a pixel's paths.
 enum class PathChoice : std::uint8_t {
+  kRidge,  // of some that are drawn in proportion to the target, the one with the clearest ridge (ridge.h)
   kChain,    // the last state of a chain that is confined to the pixel
   kLargest,  // the one with the largest target of all that were met
   kGiven,    // InspectSettings::given
@@ -46,15 +47,15 @@ struct InspectSettings {
   long long mutations = 4096;  // of the chain
   int proposals = 400;         // of each kind
   int resolution = 129;  // cells along a slice's edge; the middle of an odd number is the state
-  double sliceSize = 0;  // edge of the wide slices; 0: eight standard deviations of the prior
-  std::string pair;      // "e1,e2", "u0,u1"; empty: the two strongest eigenvectors
+  // Edge of the wide slices; 0: what shows the ridge with kRidge, else eight standard deviations of the prior.
+  double sliceSize = 0;
+  std::string pair;  // "e1,e2", "u0,u1"; empty: the two strongest eigenvectors
   std::uint64_t seed = 0;
   int threads = 0;  // 0: one a core
   const std::atomic<bool>* stop = nullptr;
 };
 
-// Two directions, with the target on the plane that they span: once as wide as isotropic steps go,
-// once on the scale of the Gaussian along each.
+// Two directions, with the target on the plane that they span: once wide, once on the scale of the Gaussian along each.
 struct InspectedPair {
   Direction x, y;
   Slice wide, close;

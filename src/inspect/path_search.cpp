@@ -24,8 +24,9 @@ int pixelAt(float film, int pixels) {
   return std::clamp(static_cast<int>(film * static_cast<float>(pixels)), 0, pixels - 1);
 }
 
-bool findPath(const SceneTarget& target, KernelMixture& kernels, int minLength,
-              const InspectSettings& settings, Path& path, PathSearch& search) {
+std::vector<Path> findPaths(const SceneTarget& target, KernelMixture& kernels, int minLength,
+                            const InspectSettings& settings, std::size_t count,
+                            PathSearch& search) {
   const Scene& scene = target.scene();
   const int width = scene.film.width, height = scene.film.height;
   const auto inPixel = [&](float x, float y) {
@@ -42,7 +43,9 @@ bool findPath(const SceneTarget& target, KernelMixture& kernels, int minLength,
     Technique technique;
     PrimarySample sample;
     double target = 0;
-  } drawn, largest;
+  };
+  std::vector<Candidate> starts(count);
+  Candidate largest;
   double sum = 0;
   for (; search.samples < settings.samples && !stopped(); ++search.samples) {
     const float x = positionIn(settings.pixelX, width, random.uniform());
@@ -52,43 +55,49 @@ bool findPath(const SceneTarget& target, KernelMixture& kernels, int minLength,
       ++search.contributing;
       const Candidate candidate{c.technique, sampler.primarySample(c.technique), target.of(c)};
       sum += candidate.target;
-      if (random.uniformDouble() * sum < candidate.target) drawn = candidate;
+      for (Candidate& start : starts)
+        if (random.uniformDouble() * sum < candidate.target) start = candidate;
       if (candidate.target > largest.target) largest = candidate;
     });
   }
-  if (search.contributing == 0) return false;
+  if (search.contributing == 0) return {};
 
   const bool wantsLargest = settings.choice == PathChoice::kLargest;
-  const Candidate& start = wantsLargest ? largest : drawn;
-  ChainState current(target.maxLength()), proposed(target.maxLength());
-  current.path.technique = start.technique;
-  current.path.sample = start.sample;
-  if (!target.evaluate(current.path)) return false;
-  path = current.path;
-
-  Random chain(settings.seed, kChainStream, 0);
-  MutationContext context;
-  context.random = &chain;
+  if (wantsLargest) starts = {largest};
+  const long long mutations =
+      settings.mutations / static_cast<long long>(starts.size());  // of each chain
   const double large = std::exchange(kernels.largeProbability, 0);
-  for (long long i = 0; i < settings.mutations && !stopped(); ++i) {
-    const auto choice = kernels.choose(current.path, chain);
-    if (!choice) continue;
-    proposed.forget();
-    const Proposal proposal = kernels.mutation(choice->kind).propose(current, proposed, context);
-    if (!proposal.made() || !inPixel(proposed.path.filmX, proposed.path.filmY) ||
-        !(chain.uniform() < proposal.acceptance(current.path, proposed.path,
-                                                kernels.logRatio(*choice, proposed.path))))
-      continue;
-    // What a lens perturbation has joined must be there when it is traced again.
-    if (!target.evaluate(proposed.path)) continue;
-    proposed.forget();
-    std::swap(current, proposed);
-    search.accepted += 1 / static_cast<double>(settings.mutations);
-    if (wantsLargest && current.path.target > path.target) path = current.path;
+  std::vector<Path> found;
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    ChainState current(target.maxLength()), proposed(target.maxLength());
+    current.path.technique = starts[k].technique;
+    current.path.sample = starts[k].sample;
+    if (!target.evaluate(current.path)) continue;
+    Path path = current.path;
+    Random chain(settings.seed, kChainStream, k);
+    MutationContext context;
+    context.random = &chain;
+    for (long long i = 0; i < mutations && !stopped(); ++i) {
+      const auto choice = kernels.choose(current.path, chain);
+      if (!choice) continue;
+      proposed.forget();
+      const Proposal proposal = kernels.mutation(choice->kind).propose(current, proposed, context);
+      if (!proposal.made() || !inPixel(proposed.path.filmX, proposed.path.filmY) ||
+          !(chain.uniform() < proposal.acceptance(current.path, proposed.path,
+                                                  kernels.logRatio(*choice, proposed.path))))
+        continue;
+      // What a lens perturbation has joined must be there when it is traced again.
+      if (!target.evaluate(proposed.path)) continue;
+      proposed.forget();
+      std::swap(current, proposed);
+      search.accepted += 1 / static_cast<double>(settings.mutations);
+      if (wantsLargest && current.path.target > path.target) path = current.path;
+    }
+    if (!wantsLargest) path = current.path;
+    found.push_back(std::move(path));
   }
   kernels.largeProbability = large;
-  if (!wantsLargest) path = current.path;
-  return true;
+  return found;
 }
 
 }  // namespace h2mc

@@ -67,6 +67,8 @@ std::vector<std::string> vertexNames(const Scene& scene, const Path& path) {
 
 const char* nameOf(PathChoice choice) {
   switch (choice) {
+    case PathChoice::kRidge:
+      return "ridge";
     case PathChoice::kChain:
       return "chain";
     case PathChoice::kLargest:

@@ -74,6 +74,15 @@ class Inspect(_h2mc.Test):
         self.assertEqual(again["pairs"][0]["wide"]["halfX"], 0.25)
         self.assertTrue(os.path.exists(self.path("box-inspect/index.html")), "the folder by default")
 
+    def test_which_path(self):
+        for path in "ridge", "chain", "largest":
+            self.inspect("--pixel", "10,12", "--path", path, "-q", "--json", path, "-o", "out")
+            self.assertEqual(self.report(path)["path"]["choice"], path)
+        self.inspect("--pixel", "10,12", "-q", "--json", "default", "-o", "out")
+        self.assertEqual(self.read("default"), self.read("ridge"))
+        self.assertAlmostEqual(self.report("chain")["pairs"][0]["wide"]["halfX"], 0.04, places=6)
+        self.fails(2, "inspect", "box.xml", "--pixel", "10,12", "--path", "any", says=("--path", "ridge", "largest"))
+
     def test_methods(self):
         self.inspect("--pixel", "10,12", "-i", "mmlt:maxDepth=3", "--path", "largest", "-o", "out", "--json", "m")
         report = json.loads(self.read("m"))

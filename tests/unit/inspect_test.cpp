@@ -8,6 +8,7 @@
 
 #include "inspect/picture.h"
 #include "inspect/report.h"
+#include "inspect/ridge.h"
 #include "mcmc/methods/methods.h"
 #include "render/core/index.h"
 #include "scene_files.h"
@@ -212,6 +213,29 @@ TEST_F(Inspect, TheLargestIsLargerThanAState) {
   const Inspection given = run();
   EXPECT_EQ(given.path.target, largest.path.target);
   EXPECT_EQ(given.pixelX, 5);
+}
+
+// Of paths that are drawn alike it takes the one with the clearest ridge, and slices that show it.
+TEST_F(Inspect, ShowsARidge) {
+  const auto ridgeOf = [&](const Inspection& inspection) {
+    return ridgeAt(scene_, inspection.path, inspection.model, 1, nullptr);
+  };
+  double states = 0;
+  for (settings_.seed = 0; settings_.seed < 4; ++settings_.seed)
+    states = std::max(states, ridgeOf(run()).strength);
+  settings_.seed = 0;
+  settings_.choice = PathChoice::kRidge;
+  const Inspection result = run();
+  EXPECT_EQ(static_cast<int>(result.path.filmX * 16), 5);
+  EXPECT_GT(result.search.accepted, 0);
+  const Ridge ridge = ridgeOf(result);
+  EXPECT_GT(ridge.strength, states);
+  EXPECT_EQ(result.pairs.front().wide.halfX, ridge.half);
+  // Wider than an isotropic step, and than the ridge.
+  EXPECT_GE(ridge.half, 1.5 * result.model.settings.sigma);
+  EXPECT_GE(ridge.half, std::min(0.5, 4 / std::sqrt(-result.model.eigen[0].value)));
+  settings_.sliceSize = 0.03;
+  EXPECT_EQ(run().pairs.front().wide.halfX, 0.015);
 }
 
 // Their film position is no coordinate, and the lens perturbation has none to move.

@@ -61,6 +61,7 @@ function describePath() {
   byId("vertices").replaceChildren(...path.vertices.map((name, i) =>
     element("li", { class: path.s > 0 && i === path.t ? "joined" : "" }, name)));
   const search = path.search, origin = {
+    ridge: `of 32 paths that were drawn in proportion to the target, the one around which it is most of a ridge`,
     chain: `a state of a chain that was confined to the ` +
       `pixel, ${search.mutations} mutations after its start (${percent(search.accepted)} of them accepted)`,
     largest: "the largest target of all paths that were met there",
