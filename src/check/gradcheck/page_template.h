@@ -77,7 +77,9 @@ function head() {
   const T = R.total, bad = R.pathsOutOfTolerance;
   const share = T.entriesJudged + T.entriesNotJudged;
   const tile = (n, what, cls = "") => `<div class="tile"><b class="${cls}">${n}</b><span>${what}</span></div>`;
-  add(`<h1>Derivatives of ${safe(R.scene)}</h1>
+  const name = R.scene.split("/").pop();
+  document.title = `h2mc gradcheck: ${name}`;
+  add(`<h1>Derivatives of ${safe(name)}</h1>
     <p>${T.paths} paths of up to ${R.maxDepth} edges, seed ${R.seed}, h2mc ${safe(R.programVersion || "")}.
     Tolerance ${small(R.tolerance)} in double, ${small(R.floatTolerance)} in float.</p>
     <p class="verdict ${bad ? "bad" : "good"}">${bad
@@ -95,7 +97,20 @@ const key = (items, dash) => `<div class="key">` +
   items.map(([name, color]) => `<span><i style="background:var(--${color})"></i>${name}</span>`).join("") +
   (dash ? `<span><i class="dash"></i>${dash}</span>` : "") + "</div>";
 
-function histogram(h) {
+// What lies beyond the line, for histogram number k: all paths in double, then the float forms.
+function beyond(h, k) {
+  if (k === 0) return "";
+  const f = R.total.forms[R.forms[k - 1].name];
+  const said = f.outOfTolerance ? `, ${whole(f.outOfTolerance)} of them out of tolerance` : "";
+  return f.rounding + f.outOfTolerance === 0 ? "None is beyond the tolerance."
+    : `Beyond the tolerance: ${whole(f.rounding + f.outOfTolerance)}${said}. ${whole(f.rounding)} by rounding: glossy ` +
+      `vertices magnify the last digit of a path's numbers, until the float derivative is right for a path a few such ` +
+      `digits away and not for this one. Derivatives in double of paths that near differ as much, or the differences of ` +
+      `sixteen neighbours cancel, or the target itself is off or ends there. What none of these explains is out of ` +
+      `tolerance.`;
+}
+
+function histogram(h, k) {
   const W = 460, H = 210, L = 40, B = 30, n = h.gradient.length, top = 10;
   const most = Math.max(1, ...h.gradient, ...h.hessian), w = (W - L - 8) / n;
   const y = c => H - B - (H - B - top) * c / most;
@@ -118,7 +133,7 @@ function histogram(h) {
   s += `<line class="limit" x1="${limit}" x2="${limit}" y1="${top}" y2="${H - B}"/>`;
   return `<div class="card"><h3>${safe(h.title)}</h3>` + key([["gradient", "one"], ["Hessian", "two"]], "tolerance") +
     `<svg viewBox="0 0 ${W} ${H}" role="img" aria-label="${safe(h.title)}">${s}</svg>
-    <p>Paths by their largest relative error</p></div>`;
+    <p>Paths by their largest relative error. ${beyond(h, k)}</p></div>`;
 }
 
 function tables() {

@@ -40,7 +40,35 @@ function walkCanvas(method) {
 const percent = (v) => `${short(100 * v)} %`;
 const figureOf = (canvas, ...text) => element("figure", {}, canvas, ...text);
 
+// Which of two errors is the smaller one, in words; what one chain each can't tell apart is said to be level.
+function against(isotropic, hamiltonian) {
+  const ratio = isotropic / hamiltonian, figures = `relmse ${short(hamiltonian)} and ${short(isotropic)}`;
+  if (ratio > 1.1)
+    return `Hessian-Hamiltonian proposals have ${short(ratio)} times less error than isotropic ones (${figures})`;
+  if (ratio < 1 / 1.1)
+    return `Hessian-Hamiltonian proposals have ${short(1 / ratio)} times the error of isotropic ones (${figures})`;
+  return `Hessian-Hamiltonian and isotropic proposals are level (${figures})`;
+}
+
+function sayVerdict(level) {
+  const named = (name) => data.methods.find((m) => m.name === name);
+  const mixed = named("mixed"), own = named("Hessian-Hamiltonian"), at = mixed.levels[level].perPixel;
+  const unit = at === 1 ? "mutation" : "mutations";
+  byId("verdict").textContent = `On this picture, at ${at} ${unit} a pixel, with steps ` +
+    `of ${short(mixed.sigma)} and a prior of ${short(own.sigma)}, ` +
+    `${against(mixed.levels[level].relmse, own.levels[level].relmse)}.`;
+}
+
+function saySweepVerdict() {
+  const best = (points) => points.reduce((a, b) => (b.relmse < a.relmse ? b : a));
+  const isotropic = best(data.sweep.isotropic), hamiltonian = best(data.sweep.hamiltonian);
+  byId("sweep-verdict").textContent = `With the best size of each, ${short(isotropic.sigma)} and ` +
+    `${short(hamiltonian.sigma)}, ${against(isotropic.relmse, hamiltonian.relmse)}, mutation for mutation; one with ` +
+    `derivatives takes longer.`;
+}
+
 function drawOverview(level) {
+  sayVerdict(level);
   byId("overview").replaceChildren(
     ...data.methods.map((m) => figureOf(pictureCanvas(m.levels[level].pixels), element("b", {}, m.name),
       ` relmse ${short(m.levels[level].relmse)}`)),
@@ -108,4 +136,7 @@ drawSweep(byId("error"), `Error (relmse) at ${data.sweepPerPixel} mutations a pi
 byId("sweep-text").textContent = `Each with ${percent(data.largeShare)} large mutations. Tiny steps are nearly ` +
   `always accepted and go nowhere; huge ones are nearly always rejected. For Hessian-Hamiltonian proposals sigma is ` +
   `only the prior's: where the luminance is curved they are narrower of their own accord, across edges more than ` +
-  `along them. How much that gains depends on the picture: most where what is bright is long and narrow.`;
+  `along them. In two dimensions little can be gained by that: a round step ` +
+  `of the right size is as good, and there is one right size. A path has four to thirty coordinates, in which the ` +
+  `target is narrow in one or two directions and flat in the others: there no round step is right (h2mc inspect).`;
+saySweepVerdict();
