@@ -33,6 +33,37 @@ void warnOfNonFinite(const std::string& path, const Image& image) {
                image.pixels.size(), path);
 }
 
+// An image with where it lies in a larger one.
+struct Compared {
+  std::string path;
+  Image image;
+  FilmWindow window{};
+};
+
+Compared readCompared(const std::string& path) {
+  Compared result{path, readImage(path)};
+  // Windows are EXRs of our own kind: what has been read as a picture and is not one of them is no part of one.
+  if (isExr(path)) try {
+      result.window = readExrHeader(path).window;
+    } catch (const ImageError&) {
+    }
+  return result;
+}
+
+// Where `part` is a window of a picture of the other's size: the same window of the other.
+void matchWindow(const Compared& part, Compared& other) {
+  const FilmWindow& window = part.window;
+  if (!window.isPart() || other.window.isPart() || other.image.width != window.wholeWidth ||
+      other.image.height != window.wholeHeight)
+    return;
+  Image cut(part.image.width, part.image.height);
+  for (int y = 0; y < cut.height; ++y)
+    for (int x = 0; x < cut.width; ++x) cut.at(x, y) = other.image.at(window.x + x, window.y + y);
+  other.image = std::move(cut);
+  fmt::print(stderr, "of \"{}\" the window from ({}, {}) on is compared, {} x {}\n", other.path,
+             window.x, window.y, part.image.width, part.image.height);
+}
+
 // Where `image` is a whole multiple of `other` in both directions, averages its blocks.
 void matchSizes(Image& image, const std::string& path, const Image& other) {
   if (other.width == 0 || image.width <= other.width || image.width % other.width != 0 ||
@@ -58,7 +89,17 @@ int diff(const DiffOptions& options) {
 
   for (const std::string& read : {options.image, options.reference})
     checkDistinct({{"an image that is read", read}, {"the difference picture", options.picture}});
-  Image image = readImage(options.image), reference = readImage(options.reference);
+  Compared one = readCompared(options.image), other = readCompared(options.reference);
+  if (one.window.isPart() && other.window.isPart() && !(one.window == other.window))
+    throw InputError(fmt::format(
+        "the images are different windows: \"{}\" is from ({}, {}) on of {} x {}, \"{}\" from ({}, "
+        "{}) on of {} x {}",
+        one.path, one.window.x, one.window.y, one.window.wholeWidth, one.window.wholeHeight,
+        other.path, other.window.x, other.window.y, other.window.wholeWidth,
+        other.window.wholeHeight));
+  matchWindow(one, other);
+  matchWindow(other, one);
+  Image &image = one.image, &reference = other.image;
   // A larger picture of the same film is compared at the smaller one's resolution.
   matchSizes(image, options.image, reference);
   matchSizes(reference, options.reference, image);
@@ -100,7 +141,9 @@ void addDiffCommand(CLI::App& app, Run& run) {
   command->add_option("IMAGE", options->image, "Image of any format that OpenImageIO reads")
       ->required()
       ->type_name("FILE");
-  command->add_option("REFERENCE", options->reference, "Reference of the same size")
+  command
+      ->add_option("REFERENCE", options->reference,
+                   "Reference of the same size; of a window (--crop), of the whole picture's")
       ->required()
       ->type_name("FILE");
   command

@@ -69,6 +69,23 @@ class Crop(_h2mc.Test):
                     self.assertAlmostEqual(part[channel][y * 9 + x], whole[channel][(y + 3) * 24 + x + 5], delta=0.15)
         self.assertNotAlmostEqual(part["position.X"][1 * 9 + 1], whole["position.X"][1 * 24 + 1], delta=0.15)
 
+    def test_against_the_whole(self):
+        """h2mc diff compares a window with the same part of a whole reference, whichever comes first."""
+        self.render("whole.exr")
+        self.render("part.exr", "--crop", "5,3,9,8")
+        whole, part = (exr.read(self.path(name))[3] for name in ("whole.exr", "part.exr"))
+        cut = [[plane[(y + 3) * 24 + x + 5] for y in range(8) for x in range(9)] for plane in whole]
+        mse = sum((a - b) ** 2 for p, q in zip(part, cut, strict=True) for a, b in zip(p, q, strict=True)) / (3 * 72)
+        for first, second in ("part.exr", "whole.exr"), ("whole.exr", "part.exr"):
+            result = self.succeeds("diff", first, second, "--metric", "mse")
+            self.assertIn("from (5, 3) on is compared, 9 x 8", result.stderr)
+            self.assertAlmostEqual(float(result.stdout.split()[1]) / mse, 1, 4)
+        # Other windows, and those of another size.
+        self.render("other.exr", "--crop", "4,3,9,8")
+        self.fails(2, "diff", "part.exr", "other.exr", says=("different windows", "(5, 3)", "(4, 3)"))
+        self.render("large.exr", "--scale", 2, "--crop", "5,3,9,8")
+        self.fails(2, "diff", "large.exr", "whole.exr", says=("differ in size", "9 x 8", "24 x 16"))
+
     def test_mistakes(self):
         for bad in ("1,2,3", "1,2,3,4,5", "a,b,c,d", "1,2,0,4", "-1,2,3,4", "1, 2, 3, 4", "", "1,2,3,4x"):
             self.fails(2, "render", "scene.xml", f"--crop={bad}", says=("--crop", "X,Y,W,H"))
