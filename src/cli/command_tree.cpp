@@ -6,10 +6,10 @@
 #include <set>
 
 #include "cli/commands.h"
-#include "cli/look_options.h"
 #include "mcmc/methods/presets.h"
 #include "mcmc/render/integrators.h"
 #include "render/image/metrics.h"
+#include "render/integrator/layers.h"
 
 namespace h2mc {
 namespace {

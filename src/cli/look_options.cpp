@@ -2,12 +2,10 @@
 #include "cli/look_options.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include "cli/commands.h"
-#include "render/scene/suggestion.h"
 
 namespace h2mc {
 namespace {
@@ -49,27 +47,6 @@ ToneMapping toneMapping(const LookOptions& options) {
     mapping.stops = stopsOf(options.exposure);
   if (options.curve == "filmic") mapping.curve = ToneCurve::kFilmic;
   return mapping;
-}
-
-std::vector<std::string> layerKindNames() {
-  std::vector<std::string> names;
-  for (const LayerName& layer : layerNames()) names.emplace_back(layer.name);
-  return names;
-}
-
-std::vector<LayerKind> layerKinds(const std::vector<std::string>& names) {
-  std::vector<LayerKind> kinds;
-  for (const std::string& name : names) {
-    const auto& all = layerNames();
-    const auto layer =
-        std::find_if(all.begin(), all.end(), [&](const LayerName& l) { return l.name == name; });
-    if (layer == all.end())
-      throw InputError("--aov: unknown layer \"" + name + "\"; " +
-                       suggestion(name, layerKindNames()));
-    if (std::find(kinds.begin(), kinds.end(), layer->kind) == kinds.end())
-      kinds.push_back(layer->kind);
-  }
-  return kinds;
 }
 
 }  // namespace h2mc

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Options that several commands have of pictures: how they are shown, and what they hold beside light.
+// Options that several commands have of pictures: how they are shown.
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "render/image/layer.h"
 #include "render/image/tone_mapping.h"
 
 namespace CLI {
@@ -22,10 +20,5 @@ struct LookOptions {
 void addLookOptions(CLI::App& command, LookOptions& options);
 // Throws InputError.
 ToneMapping toneMapping(const LookOptions& options);
-
-// The kinds of --aov's names, without repetition. Throws InputError.
-std::vector<LayerKind> layerKinds(const std::vector<std::string>& names);
-// All names, for messages.
-std::vector<std::string> layerKindNames();
 
 }  // namespace h2mc

@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/render_run.h"
+#include "render/integrator/features.h"
 
 namespace h2mc {
 namespace {
@@ -95,7 +96,7 @@ void addRenderCommand(CLI::App& app, Run& run) {
       ->add_option("--aov-samples", options->layerSamples,
                    "Camera rays a pixel for the layers of what is seen first")
       ->capture_default_str()
-      ->check(CLI::Range(1, 65536));
+      ->check(CLI::Range(1, kMostFeatureSamples));
   addSeed(*command, options->seed,
           "Same scene, options and seed: same image. Default: the scene's, or 0");
   addThreads(*command, options->threads);

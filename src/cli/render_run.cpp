@@ -21,6 +21,7 @@
 #include "render/image/atomic_file.h"
 #include "render/image/image_io.h"
 #include "render/integrator/features.h"
+#include "render/integrator/layers.h"
 #include "render/scene/scene.h"
 #include "render/scene/scene_reader.h"
 #include "render/scene/suggestion.h"
@@ -173,28 +174,13 @@ void printSummary(const Outputs& outputs, const RenderResult& result) {
   fmt::print(stderr, "{}", statisticsTable(details));
 }
 
-bool wants(const Plan& plan, LayerKind kind) {
-  return std::count(plan.layers.begin(), plan.layers.end(), kind) > 0;
-}
-
-std::vector<Layer> layersOf(const Plan& plan, const RenderResult& result) {
-  std::vector<Layer> layers = plan.features;
-  if (wants(plan, LayerKind::kVariance))
-    layers.push_back(makeLayer(LayerKind::kVariance, result.variance));
-  if (wants(plan, LayerKind::kMutations)) {
-    layers.push_back(makeLayer(LayerKind::kMutations, 0));
-    layers.back().values = result.counts;
-  }
-  return layers;
-}
-
 void writeImages(const Plan& plan, const RenderResult& result) {
   const ToneMapping look = toneMapping(plan.options.look);
   const auto writePng = [&](const std::string& file) {
     writeImage(file, plan.options.look.given() ? toneMapped(result.image, look) : result.image);
   };
   if (isPng(plan.outputs.image)) return writePng(plan.outputs.image);
-  const std::vector<Layer> layers = layersOf(plan, result);
+  const std::vector<Layer> layers = layersOf(plan.layers, plan.features, result);
   writeLayeredImage(plan.outputs.image, result.image,
                     {attributesOf(headerOf(plan, result)), layers, plan.window});
   if (!plan.outputs.png.empty()) writePng(plan.outputs.png);
@@ -238,8 +224,7 @@ void compareWithBefore(const RenderedBefore& before, const Plan& plan) {
 
 std::vector<Layer> featuresFor(const Plan& plan, const Scene& scene) {
   FeatureRequest request;
-  for (const LayerKind kind : plan.layers)
-    if (isFeature(kind)) request.layers.push_back(kind);
+  request.layers = featuresAmong(plan.layers);
   request.samplesPerPixel = plan.options.layerSamples;
   request.seed = plan.seed;
   request.threads = plan.threads;
@@ -262,8 +247,12 @@ nlohmann::json factsOf(const Plan& plan) {
 // What decides on the state of a render, besides what decides on the picture.
 nlohmann::json withState(nlohmann::json identity, const Plan& plan) {
   std::string kept;
-  for (const LayerKind kind : {LayerKind::kVariance, LayerKind::kMutations})
-    if (wants(plan, kind)) kept += (kept.empty() ? "" : ",") + std::string(layerName(kind).name);
+  const PixelStatistics statistics = statisticsFor(plan.layers);
+  const auto keep = [&](bool wanted, LayerKind kind) {
+    if (wanted) kept += (kept.empty() ? "" : ",") + std::string(layerName(kind).name);
+  };
+  keep(statistics.variance, LayerKind::kVariance);
+  keep(statistics.counts, LayerKind::kMutations);
   identity["layers"] = kept.empty() ? "none" : kept;
   const std::optional<PixelRectangle>& crop = plan.options.crop;
   identity["crop"] =
@@ -279,7 +268,7 @@ int runRender(const RenderOptions& options) {
   const Outputs outputs = outputsOf(options);
   checkIntegratorWish(options.integrator);
   toneMapping(options.look);  // throws where it means nothing
-  const std::vector<LayerKind> layers = layerKinds(options.layers);
+  const std::vector<LayerKind> layers = layerKinds(options.layers, "--aov");
   checkEffects(outputs, options);
   checkOutputs(outputs, options);
   LiveView live(options.live, outputs.image);
@@ -330,10 +319,9 @@ int runRender(const RenderOptions& options) {
       live.progress(progress);
     };
     request.resume = keeper.resume();
-    const bool variance = wants(plan, LayerKind::kVariance);
-    request.pixelStatistics.variance =
-        keeper.keepsVariance(live.wantsVariance() && !variance) || variance;
-    request.pixelStatistics.counts = wants(plan, LayerKind::kMutations);
+    request.pixelStatistics = statisticsFor(plan.layers);
+    bool& variance = request.pixelStatistics.variance;
+    variance = keeper.keepsVariance(live.wantsVariance() && !variance) || variance;
     if (options.keep.resume)
       for (const std::string& file : {outputs.image, checkpointFile(options.keep, outputs.image)})
         removeAbandoned(file);

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Metropolis light transport steered by derivatives."""
 
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
@@ -26,6 +26,7 @@ class Scene:
     def warnings(self) -> list[str]: ...
     @property
     def notes(self) -> list[str]: ...
+    @overload
     def render(
         self,
         integrator: str = "",
@@ -37,7 +38,24 @@ class Scene:
         seed: int | None = None,
         threads: int = 0,
         progress: Callable[[float, float, float], Any] | None = None,
+        aov: None = None,
+        aov_samples: int = 16,
     ) -> tuple[NDArray[np.float32], dict[str, Any]]: ...
+    @overload
+    def render(
+        self,
+        integrator: str = "",
+        options: Mapping[str, Any] = {},
+        *,
+        time: float = 0,
+        samples_per_pixel: int = 0,
+        mutations_per_pixel: int = 0,
+        seed: int | None = None,
+        threads: int = 0,
+        progress: Callable[[float, float, float], Any] | None = None,
+        aov: Sequence[str],
+        aov_samples: int = 16,
+    ) -> tuple[NDArray[np.float32], dict[str, Any], dict[str, NDArray[np.float32]]]: ...
     def technique(self, s: int, t: int) -> Technique: ...
     def chain(
         self,

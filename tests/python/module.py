@@ -19,6 +19,9 @@ import h2mc
 ROOT = os.environ["H2MC_SOURCE_DIR"]
 BINARY = os.environ["H2MC_BINARY"]
 
+sys.path.insert(0, os.path.join(ROOT, "scenes"))
+import exr  # noqa: E402  (what the scenes' scripts share)
+
 
 def scene_file(name):
     return os.path.join(ROOT, "scenes", name, name + ".xml")
@@ -80,6 +83,40 @@ class Rendering(unittest.TestCase):
             self.assertTrue(np.array_equal(image, expected), integrator)
             self.assertEqual((statistics["seed"], statistics["sampleUnit"]), (7, budget))
             self.assertGreater(statistics["samples"], 0)
+
+    def test_layers_are_those_of_the_command_line(self):
+        """Bit for bit; and the picture is the same with them and without."""
+        names = ["albedo", "normal", "depth", "position", "time", "id", "variance", "mutations"]
+        for name, integrator in ("ring", "h2mc:maxDepth=5"), ("spinning", "path"):
+            scene = h2mc.load(scene_file(name), width=32, height=24)
+            budget = {"seed": 7, "samples_per_pixel" if integrator == "path" else "mutations_per_pixel": 4}
+            image, _, layers = scene.render(integrator, aov=names, aov_samples=5, threads=2, **budget)
+            self.assertTrue(np.array_equal(image, scene.render(integrator, **budget)[0]))
+            with tempfile.TemporaryDirectory() as folder:
+                file = os.path.join(folder, "image.exr")
+                subprocess.run([BINARY, "render", scene_file(name), "--width", "32", "--height", "24", "-i", integrator,
+                                "-q", "-s" if integrator == "path" else "-m", "4", "--seed", "7", "-o", file,
+                                "--aov", ",".join(names), "--aov-samples", "5"], check=True)
+                planes = exr.read_planes(file)[3]
+            self.assertEqual(list(layers), names)
+            for channel, values in planes.items():
+                layer, _, letter = channel.partition(".")
+                if not letter:
+                    continue
+                array = layers[layer]
+                self.assertEqual(array.dtype, np.float32)
+                if array.ndim == 3:
+                    array = array[:, :, "RGBXYZ".index(letter) % 3]
+                self.assertEqual(array.shape, (24, 32))
+                self.assertTrue(np.array_equal(array.ravel(), np.array(values, dtype=np.float32)), channel)
+                planes[channel] = None
+            self.assertEqual(sum(values is None for values in planes.values()), 16)
+        self.assertEqual(scene.render("path", samples_per_pixel=1, aov=[])[2], {})
+        with self.assertRaisesRegex(h2mc.Error, "aov: unknown layer \"albdo\".*albedo"):
+            scene.render("path", samples_per_pixel=1, aov=["albdo"])
+        for bad in 0, 100_000:
+            with self.assertRaisesRegex(h2mc.Error, "aov_samples"):
+                scene.render("path", samples_per_pixel=1, aov=["albedo"], aov_samples=bad)
 
     def test_options(self):
         scene = h2mc.load(scene_file("ring"), width=16)

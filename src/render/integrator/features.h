@@ -12,6 +12,8 @@ namespace h2mc {
 
 struct Scene;
 
+inline constexpr int kMostFeatureSamples = 65536;
+
 struct FeatureRequest {
   std::vector<LayerKind> layers;  // in the order that is wanted
   int samplesPerPixel = 16;
