@@ -103,11 +103,11 @@ function beyond(h, k) {
   const f = R.total.forms[R.forms[k - 1].name];
   const said = f.outOfTolerance ? `, ${whole(f.outOfTolerance)} of them out of tolerance` : "";
   return f.rounding + f.outOfTolerance === 0 ? "None is beyond the tolerance."
-    : `Beyond the tolerance: ${whole(f.rounding + f.outOfTolerance)}${said}. ${whole(f.rounding)} by rounding: glossy ` +
-      `vertices magnify the last digit of a path's numbers, until the float derivative is right for a path a few such ` +
-      `digits away and not for this one. Derivatives in double of paths that near differ as much, or the differences of ` +
-      `sixteen neighbours cancel, or the target itself is off or ends there. What none of these explains is out of ` +
-      `tolerance.`;
+    : `Beyond the tolerance: ${whole(f.rounding + f.outOfTolerance)}${said}. ${whole(f.rounding)} by rounding: ` +
+      `glossy vertices magnify the last digit of a path's numbers, until the float derivative is right for a path a ` +
+      `few such digits away and not for this one. Derivatives in double of paths that near differ as much, or the ` +
+      `differences of sixteen neighbours cancel, or the target itself is off or ends there. What none of these ` +
+      `explains is out of tolerance.`;
 }
 
 function histogram(h, k) {
