@@ -24,8 +24,11 @@ std::vector<std::string> KernelMixture::kindNames() const {
 Division KernelMixture::division() const {
   const double mean = meanTarget.value_or(0);
   if (!held_.empty()) return {(largeProbability + baseSamples) * mean, held_.data(), mean};
-  // Beside base samples, what is found on most scenes.
-  constexpr double kHeld = 2;
+  if (!(baseSamples > 0)) return {largeProbability * mean};
+  // Before anything is learned chains have not forgotten where they began: what is bright is left to the samples. Later,
+  // what is found on most scenes.
+  constexpr double kHeldAtFirst = 64, kHeld = 2;
+  if (learned_.empty()) return {kHeldAtFirst * (largeProbability + baseSamples) * mean};
   return {(largeProbability + kHeld * baseSamples) * mean};
 }
 

@@ -12,25 +12,28 @@ namespace h2mc {
 namespace {
 
 constexpr std::uint64_t kChainStream = 0x636861696e, kResampleStream = 0x7265736d;
-// The first epoch's mutations a pixel.
-constexpr double kFirstEpoch = 4;
+// The first epoch's mutations a pixel; less where it is to tell how many base samples there should be.
+constexpr double kFirstEpoch = 4, kFirstEpochBeside = 0.25;
 // So many mutations make a cell of the importance map.
 constexpr double kMutationsPerCell = 256;
 // Base samples for each mutation before their noise is known, and what one of them costs, in mutations: 1 to 1.4 on the
 // project's scenes. No clock is asked, so that the picture does not depend on it.
-constexpr double kFirstBase = 0.3, kBaseCost = 1.2;
+constexpr double kFirstBase = 1, kBaseCost = 1.2;
+// As many, where there is time for no more than so many samples a pixel: chains get nowhere in it.
+constexpr double kFirstBaseIfBrief = 4, kBrief = 16;
 
-double baseSamplesAtFirst(const OptionSet& options) {
+double baseSamplesAtFirst(const OptionSet& options, double affordable) {
   const double wanted = options.number("baseSamples");
   if (options.string("largeStep") != "bidirectional") return 0;
-  return wanted >= 0 ? wanted : kFirstBase;
+  if (wanted >= 0) return wanted;
+  return affordable < kBrief ? kFirstBaseIfBrief : kFirstBase;
 }
 
 }  // namespace
 
 ChainEnsemble::ChainEnsemble(const Scene& scene, const MetropolisMethod& method,
                              const OptionSet& options, const Bootstrap& bootstrap, int minLength,
-                             int maxLength, const RenderRequest& request)
+                             int maxLength, const RenderRequest& request, double affordable)
     : scene_(scene),
       seed_(request.seed),
       threads_(request.threads),
@@ -43,7 +46,8 @@ ChainEnsemble::ChainEnsemble(const Scene& scene, const MetropolisMethod& method,
       chains_(at(std::max(options.integer("chains"), 1))),
       statistics_(request.pixelStatistics),
       image_(scene.film, request.threads, statistics_),
-      learnsBase_(baseSamplesAtFirst(options) > 0 && options.number("baseSamples") < 0) {
+      learnsBase_(baseSamplesAtFirst(options, affordable) > 0 &&
+                  options.number("baseSamples") < 0) {
   const std::vector<double> weights = bootstrap.techniqueLuminance();
   techniques_.setWeights(weights, std::vector<bool>(weights.size(), true));
   if (options.string("largeStep") != "bidirectional")
@@ -54,7 +58,7 @@ ChainEnsemble::ChainEnsemble(const Scene& scene, const MetropolisMethod& method,
   for (std::size_t g = 0; g < groups; ++g) {
     KernelMixture kernels = makeKernels(method, target_, techniques_, options, minLength);
     kernels.meanTarget = bootstrap.luminance().mean();
-    kernels.baseSamples = baseSamplesAtFirst(options);
+    kernels.baseSamples = baseSamplesAtFirst(options, affordable);
     kernels.dividesByHolding = kernels.baseSamples > 0 && options.boolean("divisionByHolding");
     kernels.width = static_cast<float>(scene.film.width);
     kernels.height = static_cast<float>(scene.film.height);
@@ -135,7 +139,8 @@ int ChainEnsemble::cell() const {
 }
 
 bool ChainEnsemble::epochIsOver() const {
-  return mutationsPerPixel() >= kFirstEpoch * std::pow(kGrowth, epoch_);
+  return mutationsPerPixel() >=
+         (learnsBase_ ? kFirstEpochBeside : kFirstEpoch) * std::pow(kGrowth, epoch_);
 }
 
 ChainStatistics ChainEnsemble::statistics() const {

@@ -20,10 +20,11 @@ namespace h2mc {
 // tends to the right one; the result is their mean, each with its number of mutations.
 class ChainEnsemble {
  public:
-  // Chains start from the bootstrap's samples. Keeps references, but not to the request.
+  // Chains start from the bootstrap's samples. `affordable`: how many bidirectional samples a pixel there would be time
+  // for; infinite where the budget is no time. Keeps references, but not to the request.
   ChainEnsemble(const Scene& scene, const MetropolisMethod& method, const OptionSet& options,
                 const Bootstrap& bootstrap, int minLength, int maxLength,
-                const RenderRequest& request);
+                const RenderRequest& request, double affordable);
 
   int groups() const { return static_cast<int>(groups_.size()); }
   int chains() const { return static_cast<int>(chains_.size()); }

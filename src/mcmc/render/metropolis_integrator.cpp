@@ -5,11 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "mcmc/populations/ensemble.h"
-#include "mcmc/render/direct_lighting.h"
 #include "mcmc/render/metropolis_memory.h"
+#include "mcmc/render/split_render.h"
 #include "render/core/archive.h"
 #include "render/integrator/common_options.h"
 #include "render/integrator/parallel_rounds.h"
@@ -38,109 +39,57 @@ constexpr double kShortBootstrapOfTime = 0.15;
 constexpr long long kTrialBootstrap = 4096;
 
 // One render: direct lighting and the chains take turns.
-class MetropolisRender final : public RenderInProgress {
+class MetropolisRender final : public SplitRender {
  public:
   MetropolisRender(const MetropolisMethod& method, const OptionSet& options, int maxLength,
                    const Scene& scene, const RenderRequest& request)
-      : method_(method),
-        options_(options),
-        scene_(scene),
-        request_(request),
-        mutationsPerPixel_(mutationBudget()),
-        directRequest_(directRequest()),
-        direct_(scene, options, directRequest_),
-        minLength_(split() ? DirectLighting::longest(scene) + 1 : options.integer("minDepth")),
-        maxLength_(maxLength),
-        round_(roundOf(options.integer("chains"))) {
-    if (request_.watch) direct_.setWatch([this] { look(); });
-  }
-  MetropolisRender(const MetropolisRender&) = delete;
-  MetropolisRender& operator=(const MetropolisRender&) = delete;
+      : SplitRender(options, maxLength, scene, request),
+        method_(method),
+        round_(roundOf(options.integer("chains"))) {}
 
   RenderResult run();
 
   RenderResult result() const override;
   bool isExact() const override;
-  bool isOver() const override { return over_; }
   void save(Archive& archive) override;
-  void pause(const std::function<void()>& work) override;
 
  private:
   // What it is at: the first direct light, the chains, or direct light between two of their epochs.
   enum class Stage : int { kDirect, kChains, kBetweenEpochs };
-
-  bool timed() const { return request_.budget.seconds > 0; }
-  bool stopped() const { return request_.stop && *request_.stop; }
-  // Whether direct lighting is left out of the chains.
-  bool split() const { return direct_.wanted(); }
-  double pixels() const { return static_cast<double>(scene_.film.width) * scene_.film.height; }
 
   // Of a chain in the present round.
   long long roundNow() const {
     const long long left = round_ - stepsDone_ % round_;
     return stepsPerChain_ > 0 ? std::min(left, stepsPerChain_ - stepsDone_) : left;
   }
-  // 0 where seconds are the only limit.
-  long long mutationBudget() const {
-    const RenderBudget& budget = request_.budget;
-    const long long asked = budget.mutationsPerPixel + budget.samplesPerPixel;
-    return asked == 0 && !timed() ? options_.integer("mutationsPerPixel") : asked;
-  }
-  RenderRequest directRequest() const;
   // `seconds`: what one of them takes.
   long long bootstrapSamples(double seconds) const;
   void makeBootstrap();
-  void extendDirect(std::size_t mark);
-  void balanceDirect(const ChainEnsemble& chains);
+  void balance(const ChainEnsemble& chains) {
+    balanceDirect(chains.mutationsPerPixel(), chains.mutationCost(), ChainEnsemble::kGrowth);
+  }
   void endEpoch(ChainEnsemble& chains);
   void beginEpoch(ChainEnsemble& chains);
-  void atMark(std::size_t mark, const std::function<RenderResult()>& result);
   RoundsPlan plan(ChainEnsemble& chains);
-  RenderResult directAlone();
   RenderResult withChains();
-  RenderResult finished(RenderResult result) const;
-  void look() { request_.watch(*this); }
-  void lookLast();
+  using SplitRender::finished;
+  RenderResult finished(RenderResult result) const override;
   // What save() writes but for the chains.
   void archiveRender(Archive& archive);
-  void countNotFinite(nlohmann::json& statistics) const;
 
-  RenderClock clock_;
   const MetropolisMethod& method_;
-  const OptionSet& options_;
-  const Scene& scene_;
-  const RenderRequest& request_;
-  const long long mutationsPerPixel_;
-  const RenderRequest directRequest_;
-  DirectLighting direct_;
   std::optional<Bootstrap> bootstrap_;
   std::optional<ChainEnsemble> chains_;
-  const int minLength_, maxLength_;  // of the chains' paths
-  const long long round_;            // mutations of a chain
-  long long stepsPerChain_ = 0;      // 0: by time
-  long long stepsDone_ = 0;          // of each chain
+  const long long round_;        // mutations of a chain
+  long long stepsPerChain_ = 0;  // 0: by time
+  long long stepsDone_ = 0;      // of each chain
   Stage stage_ = Stage::kDirect;
   long long bootstrapCount_ = 0;  // samples that were to be made
-  bool inexact_ = false;          // the stop flag was set before the chains began
-  bool restored_ = false;         // chains go on from an archive
-  bool over_ = false;
-  std::size_t nextMark_ = 0;
-  double chainsBegan_ = 0, directBefore_ = 0;  // seconds of the clock, seconds of direct_ by then
+  // Bidirectional samples a pixel that there would be time for.
+  double affordable_ = std::numeric_limits<double>::infinity();
+  bool inexact_ = false;   // the stop flag was set before the chains began
+  bool restored_ = false;  // chains go on from an archive
 };
-
-RenderRequest MetropolisRender::directRequest() const {
-  RenderRequest r = request_;
-  r.progress = nullptr;
-  r.watch = nullptr;
-  r.resume = nullptr;
-  if (request_.progress && timed())
-    r.progress = [this](const RenderProgress& own) {
-      const double now = clock_.wallSeconds();
-      request_.progress(
-          {std::min(now / request_.budget.seconds, 1.0), now, own.rate, own.rateUnit});
-    };
-  return r;
-}
 
 long long MetropolisRender::bootstrapSamples(double seconds) const {
   constexpr auto kLeast = static_cast<double>(kLeastBootstrap),
@@ -164,6 +113,7 @@ void MetropolisRender::makeBootstrap() {
                      request_.stop);
   if (restored_) return;
   const double each = (clock_.wallSeconds() - before) / static_cast<double>(first);
+  if (timed()) affordable_ = request_.budget.seconds / each / pixels();
   bootstrapCount_ = wanted > 0 ? wanted : std::max(first, bootstrapSamples(each));
   bootstrap_->extendTo(bootstrapCount_);
   // Light that is seldom found must be found first.
@@ -174,33 +124,6 @@ void MetropolisRender::makeBootstrap() {
   }
 }
 
-// Direct lighting keeps pace with the chains: up to mark i it gets what a render that ends there would
-// give it.
-void MetropolisRender::extendDirect(std::size_t mark) {
-  if (!split()) return;
-  const double end = mark < request_.marks.size() ? request_.marks[mark] : 0;
-  if (timed())
-    direct_.extendTo(end > 0 ? end : request_.budget.seconds, 0);
-  else
-    direct_.extendTo(0, end > 0 ? std::llround(end) : mutationsPerPixel_);
-}
-
-void MetropolisRender::balanceDirect(const ChainEnsemble& chains) {
-  DirectLighting::Standing now;
-  now.mutations = chains.mutationsPerPixel();
-  now.mutationCost = chains.mutationCost();
-  now.seconds = clock_.wallSeconds();
-  now.chainSeconds = now.seconds - chainsBegan_ - (direct_.seconds() - directBefore_);
-  if (nextMark_ < request_.marks.size())
-    (timed() ? now.endSeconds : now.endMutations) = request_.marks[nextMark_];
-  else if (timed())
-    now.endSeconds = request_.budget.seconds;
-  else
-    now.endMutations = static_cast<double>(mutationsPerPixel_);
-  now.growth = ChainEnsemble::kGrowth;
-  direct_.balance(now);
-}
-
 // Direct lighting has its film while the chains have none.
 void MetropolisRender::endEpoch(ChainEnsemble& chains) {
   const TwoEstimates picture = chains.halves();
@@ -209,7 +132,7 @@ void MetropolisRender::endEpoch(ChainEnsemble& chains) {
   chains.measure(weights);
   chains.endEpoch();
   stage_ = Stage::kBetweenEpochs;
-  if (split()) balanceDirect(chains);
+  if (split()) balance(chains);
   beginEpoch(chains);
 }
 
@@ -218,50 +141,10 @@ void MetropolisRender::beginEpoch(ChainEnsemble& chains) {
   stage_ = Stage::kChains;
 }
 
-void MetropolisRender::atMark(std::size_t mark, const std::function<RenderResult()>& result) {
-  clock_.exclude([&] { request_.atMark(mark, finished(result())); });
-  nextMark_ = mark + 1;
-  extendDirect(nextMark_);
-}
-
 RenderResult MetropolisRender::finished(RenderResult result) const {
-  result.sampleUnit = "mutations";
-  if (split()) direct_.addTo(result);
-  const Image empty(scene_.film.width, scene_.film.height);
-  if (result.image.pixels.empty()) result.image = empty;
-  const PixelStatistics& asked = request_.pixelStatistics;
-  if (asked.variance && result.variance.pixels.empty()) result.variance = empty;
-  if (asked.counts) result.counts.resize(empty.pixels.size());
-  finish(scene_, result);
-  countNotFinite(result.statistics);
-  result.statistics["mean luminance"] = result.meanLuminance;
-  result.statistics["mean luminance standard error"] = result.meanLuminanceError;
-  result.wallSeconds = clock_.wallSeconds();
-  result.cpuSeconds = clock_.cpuSeconds();
-  return result;
-}
-
-// What was left out because it was not finite: all of it, and where.
-void MetropolisRender::countNotFinite(nlohmann::json& statistics) const {
-  // Where no chain has run there are no statistics yet.
-  const long long inChains = statistics.is_object() ? statistics.value("not finite", 0LL) : 0;
-  const long long inBootstrap = bootstrap_ ? bootstrap_->notFinite() : 0;
-  const long long inDirect = direct_.notFinite();
-  statistics["not finite"] = inChains + inBootstrap + inDirect;
-  statistics["not finite by source"] = {
-      {"chains", inChains}, {"bootstrap", inBootstrap}, {"direct lighting", inDirect}};
-  if (!statistics.contains("first not finite") && inBootstrap > 0)
-    statistics["first not finite"] = bootstrap_->firstNotFinite();
-}
-
-// Where there is nothing for the chains to do.
-RenderResult MetropolisRender::directAlone() {
-  for (std::size_t mark = 0; mark < request_.marks.size() && !direct_.interrupted(); ++mark)
-    atMark(mark, [] { return RenderResult(); });
-  lookLast();
-  RenderResult none;
-  none.interrupted = stopped();
-  return finished(none);
+  NotFinite ofBootstrap;
+  if (bootstrap_) ofBootstrap = {bootstrap_->notFinite(), bootstrap_->firstNotFinite()};
+  return finished(std::move(result), "chains", ofBootstrap);
 }
 
 RoundsPlan MetropolisRender::plan(ChainEnsemble& chains) {
@@ -286,7 +169,7 @@ RoundsPlan MetropolisRender::plan(ChainEnsemble& chains) {
   }
   plan.atMark = [&](std::size_t mark, const RoundsResult&) {
     atMark(mark, [&] { return chains.result(); });
-    if (split()) balanceDirect(chains);
+    if (split()) balance(chains);
   };
   plan.endOfRound = [&] {
     chains.endRound();
@@ -301,8 +184,8 @@ RoundsPlan MetropolisRender::plan(ChainEnsemble& chains) {
 RenderResult MetropolisRender::withChains() {
   const bool stoppedEarly = stopped();  // while direct light or the bootstrap was made
   inexact_ = stoppedEarly;
-  ChainEnsemble& chains =
-      chains_.emplace(scene_, method_, options_, *bootstrap_, minLength_, maxLength_, request_);
+  ChainEnsemble& chains = chains_.emplace(scene_, method_, options_, *bootstrap_, minLength_,
+                                          maxLength_, request_, affordable_);
   if (restored_) {
     (*request_.resume)(chains);
     direct_.finishPart();
@@ -311,10 +194,7 @@ RenderResult MetropolisRender::withChains() {
   }
   stage_ = Stage::kChains;
   const RoundsPlan rounds = plan(chains);
-  if (!restored_) {
-    chainsBegan_ = clock_.wallSeconds();
-    directBefore_ = direct_.seconds();
-  }
+  if (!restored_) startMutations();
   RoundsResult done;
   if (stepsPerChain_ == 0 || stepsDone_ < stepsPerChain_)
     done = runRounds(request_, clock_, chains.groups(), rounds,
@@ -357,19 +237,9 @@ bool MetropolisRender::isExact() const {
          (stage_ != Stage::kChains || stepsDone_ % Chain::kDerivedAnew == 0);
 }
 
-void MetropolisRender::pause(const std::function<void()>& work) {
-  clock_.exclude([&] { direct_.pause(work); });
-}
-
-void MetropolisRender::lookLast() {
-  over_ = true;
-  if (request_.watch) look();
-}
-
 void MetropolisRender::archiveRender(Archive& archive) {
-  double wall = clock_.wallSeconds(), cpu = clock_.cpuSeconds();
-  archive(wall, cpu, stage_, bootstrapCount_, stepsDone_, chainsBegan_, directBefore_, direct_);
-  if (archive.reading()) clock_.advance(wall, cpu);
+  archiveDirect(archive);
+  archive(stage_, bootstrapCount_, stepsDone_);
 }
 
 void MetropolisRender::save(Archive& archive) {
