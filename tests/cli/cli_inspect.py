@@ -83,6 +83,16 @@ class Inspect(_h2mc.Test):
         self.assertAlmostEqual(self.report("chain")["pairs"][0]["wide"]["halfX"], 0.04, places=6)
         self.fails(2, "inspect", "box.xml", "--pixel", "10,12", "--path", "any", says=("--path", "ridge", "largest"))
 
+    def test_the_page_s_own_pixel(self):
+        """docs/inspect.md's command finds a ridge: isotropic steps miss it, and the Hessian's Gaussian lies along it."""
+        self.succeeds("inspect", _h2mc.RING, "--pixel", "150,150", *QUICK, "-q", "--json", "ring", "-o", "out")
+        report = self.report("ring")
+        accepted = {kind["name"]: kind["acceptance"] for kind in report["kinds"]}
+        self.assertLess(accepted["isotropic"], 0.1)
+        self.assertGreater(accepted["hamiltonian"], 3 * accepted["isotropic"])
+        across, along = report["model"]["eigen"][:2]
+        self.assertLess(across["value"], -10 * abs(along["value"]))
+
     def test_methods(self):
         self.inspect("--pixel", "10,12", "-i", "mmlt:maxDepth=3", "--path", "largest", "-o", "out", "--json", "m")
         report = json.loads(self.read("m"))
