@@ -13,7 +13,8 @@ import sys
 import _h2mc
 
 ROOT = os.path.abspath(_h2mc.SOURCE_DIR)
-PAGES = sorted(glob.glob(os.path.join(ROOT, "*.md")) + glob.glob(os.path.join(ROOT, "docs", "*.md"))
+PAGES = sorted(glob.glob(os.path.join(ROOT, "*.md")) + glob.glob(os.path.join(ROOT, "docs", "**", "*.md"),
+                                                                            recursive=True)
                + glob.glob(os.path.join(ROOT, "scenes", "*", "README.md")))
 # Words that stand for a file's name or a choice: what holds them is no path.
 PLACEHOLDER = re.compile(r"[A-Z]{3,}|\.\.\.|[*<>{}$ ]")
