@@ -84,7 +84,7 @@ class Inspect(_h2mc.Test):
         self.fails(2, "inspect", "box.xml", "--pixel", "10,12", "--path", "any", says=("--path", "ridge", "largest"))
 
     def test_the_page_s_own_pixel(self):
-        """docs/inspect.md's command finds a ridge: isotropic steps miss it, and the Hessian's Gaussian lies along it."""
+        """docs/inspect.md's command finds a ridge, which isotropic steps miss and the Hessian's Gaussian lies along."""
         self.succeeds("inspect", _h2mc.RING, "--pixel", "150,150", *QUICK, "-q", "--json", "ring", "-o", "out")
         report = self.report("ring")
         accepted = {kind["name"]: kind["acceptance"] for kind in report["kinds"]}
