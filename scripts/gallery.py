@@ -86,8 +86,9 @@ def row_of(options, scene):
     attributes, width, height, planes = exr.read_planes(image)
     cpu, samples = (number(attributes[name]) for name in ("cpuSeconds", "samples"))
     error = error_of(planes)
-    picture = os.path.join(OUT, scene + ".jpg")
-    subprocess.run(["convert", os.path.join(options.work, scene + ".png"), "-strip", "-quality", str(QUALITY),
+    picture, png = os.path.join(OUT, scene + ".jpg"), os.path.join(options.work, scene + ".png")
+    subprocess.run([options.h2mc, "convert", image, png], check=True)
+    subprocess.run(["convert", png, "-strip", "-quality", str(QUALITY),
                     picture], check=True)
     with open(os.path.join(ROOT, "scenes", scene, "README.md"), encoding="utf-8") as stream:
         title = re.search(r"^# (.*)", stream.read()).group(1)
