@@ -50,8 +50,8 @@ std::string methodWish(const std::string& wish) {
 }
 
 const MetropolisMethod& methodOf(const std::string& wish) {
-  const std::string name = wish.substr(0, wish.find(':'));
-  if (const Preset* preset = presetNamed(name)) return methodNamed(preset->method);
+  std::string name = wish.substr(0, wish.find(':'));
+  if (const Preset* preset = presetNamed(name)) name = preset->method;
   Names names;
   for (const MetropolisMethod& method : metropolisMethods()) {
     if (method.name == name) return method;

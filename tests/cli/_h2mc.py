@@ -19,7 +19,7 @@ BINARY = os.environ.get("H2MC_BINARY", "")
 SOURCE_DIR = os.environ.get("H2MC_SOURCE_DIR",
                             os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 RING = os.path.join(SOURCE_DIR, "scenes", "ring", "ring.xml")
-INTEGRATORS = ("path", "bdpt", "mmlt", "h2mc", "lmc", "rjmlt", "mlt", "pssmlt")
+INTEGRATORS = ("path", "bdpt", "mmlt", "h2mc", "lmc", "rjmlt", "mlt", "pssmlt", "erpt", "restore")
 
 
 def wait_for_handler(process, seconds=60):
@@ -35,7 +35,10 @@ def wait_for_handler(process, seconds=60):
 
 def quick(integrator, *options):
     """The integrator for -i, with less preparation than it makes for a real image."""
-    if integrator not in ("path", "bdpt"):
+    if integrator in ("erpt", "restore"):
+        length = {"erpt": "chainLength=10", "restore": "tourLength=10"}[integrator]
+        options = ("luminanceSamples=4000", length, *options)
+    elif integrator not in ("path", "bdpt"):
         options = ("bootstrapSamples=4000", "chains=32", *options)
     return integrator + (":" if options else "") + ",".join(options)
 

@@ -53,6 +53,16 @@ TEST_P(OwnScenes, SlowIntegratorsAgree) {
                                path ? pathSamples(name) : 8, kEdge),
                     mean, variance, 1.7e-2, name + " " + integrator);
   }
+  auto tours = options;
+  tours.insert(tours.end(), {{"directSamples", "48"}});
+  for (const char* integrator : {"erpt:chainLength", "restore:tourLength"}) {
+    const std::string text(integrator);
+    const std::size_t colon = text.find(':');
+    auto own = tours;
+    own.insert(own.end(), {{text.substr(colon + 1), "10"}});
+    expectAgreement(renderRuns(scene, text.substr(0, colon), own, kRuns, 32, kEdge), mean, variance,
+                    1.7e-2, name + " " + text.substr(0, colon));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, OwnScenes, testing::ValuesIn(ownScenes()), [](const auto& info) {

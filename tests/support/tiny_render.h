@@ -17,7 +17,11 @@ inline Scene tinyRing() { return readTestScene(H2MC_SOURCE_DIR "/scenes/ring/rin
 inline RenderResult renderTiny(const std::string& integrator, const Scene& scene,
                                const RenderRequest& request,
                                std::vector<std::pair<const char*, std::string>> options) {
-  options.insert(options.begin(), {{"chains", "16"}, {"bootstrapSamples", "2000"}});
+  options.insert(options.begin(), {{"chains", "16"},
+                                   {"bootstrapSamples", "2000"},
+                                   {"luminanceSamples", "2000"},
+                                   {"chainLength", "5"},
+                                   {"tourLength", "5"}});
   for (const IntegratorFactory& factory : allIntegrators())
     if (factory.plugin.name == integrator) {
       OptionSet set(factory.plugin);

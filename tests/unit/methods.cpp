@@ -50,17 +50,28 @@ TEST(Methods, OptionsThatDoNotGoTogether) {
     EXPECT_NO_THROW(chooseIntegrator(wish, scene)) << wish;
 }
 
+TEST(TourMethods, RefuseWhatMeansNothing) {
+  const Scene scene = SceneFolder().read(sceneWith(""));
+  for (const char* wish :
+       {"erpt:numChains=0", "erpt:chainLength=0", "erpt:luminanceSamples=0", "restore:tourLength=0",
+        "restore:targetLimit=-1", "restore:lensShare=2", "erpt:tourLength=3", "restore:sigma=0",
+        "erpt:lensShare=0,isotropicShare=0,hamiltonianShare=0"})
+    EXPECT_THROW(chooseIntegrator(wish, scene), OptionError) << wish;
+  for (const char* wish : {"erpt:causticShare=1", "restore", "erpt-2005"})
+    EXPECT_NO_THROW(chooseIntegrator(wish, scene)) << wish;
+}
+
 TEST(Presets, SetWhatTheySayAndTheCommandLineGoesBefore) {
   const Scene scene = SceneFolder().read(
       sceneWith("<integrator type=\"mmlt\"><integer name=\"maxDepth\" value=\"7\"/></integrator>"));
   for (const Preset& preset : presets()) {
     const OptionSet options =
-        chooseIntegrator(std::string(preset.name) + ":chains=17", scene).options;
+        chooseIntegrator(std::string(preset.name) + ":minDepth=3", scene).options;
     EXPECT_EQ(options.integrator(), preset.method);
-    EXPECT_EQ(options.integer("chains"), 17);
+    EXPECT_EQ(options.integer("minDepth"), 3);
     EXPECT_EQ(options.integer("maxDepth"), 7);
     for (const auto& [name, value] : preset.options) {
-      OptionSet only(methodNamed(preset.method).plugin());
+      OptionSet only = chooseIntegrator(std::string(preset.method), scene).options;
       only.set(name, std::string(value));
       EXPECT_EQ(options.values().find(name)->second, only.values().find(name)->second) << name;
     }

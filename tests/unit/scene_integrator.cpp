@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "mcmc/render/integrators.h"
 #include "scene_files.h"
 
 namespace h2mc::testing {
@@ -58,12 +59,34 @@ TEST(SceneIntegrator, OtherMethodsOfMitsubaAreRenderedByTheNearest) {
       << scene.warnings[0];
   for (const auto& [theirs, ours] :
        {std::pair("volpath", "path"), std::pair("volpath_simple", "path"),
-        std::pair("guided_path", "path"), std::pair("erpt", "mmlt"),
-        std::pair("photonmapper", "bdpt")}) {
+        std::pair("guided_path", "path"), std::pair("photonmapper", "bdpt")}) {
     const Scene read = readBody("<integrator type=\"" + std::string(theirs) + "\"/>");
     EXPECT_EQ(read.integrator.integrator(), ours);
     EXPECT_EQ(read.warnings.size(), 1u) << theirs;
   }
+}
+
+// Mitsuba's own words: those that mean the same here are taken, the others are known.
+TEST(SceneIntegrator, ErptOfMitsubaIsOurs) {
+  const std::vector<IntegratorPlugin> plugins = integratorPlugins();
+  ReadOptions options;
+  options.integrators = plugins;
+  const SceneFolder folder;
+  const Scene scene = readScene(
+      folder.write(
+          "scene.xml",
+          sceneWith("<integrator type=\"erpt\"><integer name=\"maxDepth\" value=\"8\"/>"
+                    "<float name=\"numChains\" value=\"2\"/><integer name=\"chainLength\" "
+                    "value=\"50\"/><integer name=\"maxChains\" value=\"3\"/>"
+                    "<boolean name=\"manifoldPerturbation\" value=\"true\"/></integrator>")),
+      options);
+  EXPECT_EQ(scene.integrator.integrator(), "erpt");
+  EXPECT_EQ(scene.integrator.integer("maxDepth"), 8);
+  EXPECT_EQ(scene.integrator.number("numChains"), 2);
+  EXPECT_EQ(scene.integrator.integer("chainLength"), 50);
+  EXPECT_TRUE(hasNote(scene, "maxChains"));
+  EXPECT_TRUE(hasNote(scene, "manifoldPerturbation"));
+  EXPECT_TRUE(scene.warnings.empty());
 }
 
 // A table entry is for as long as there is no method of that name.

@@ -33,6 +33,15 @@ void Chain::restart(const Path& from) {
   current_->path = from;
 }
 
+void Chain::begin(const Path& from, Random random) {
+  assert(weight_ == 0);
+  restart(from);
+  memory_.forget();
+  random_ = random;
+  steps_ = 0;
+  moved_ = false;
+}
+
 void Chain::archive(Archive& archive) {
   assert(weight_ == 0);
   archive(current_->path, random_, steps_, moved_);

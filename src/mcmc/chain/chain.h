@@ -25,6 +25,8 @@ class Chain {
   // perturbation has joined might, by rounding, miss its mark. Preconditions: flushed, a target that is
   // positive and the present one.
   void restart(const Path& from);
+  // Goes on from there as a new chain would that draws from `random`.
+  void begin(const Path& from, Random random);
 
   // Where it stands, between two steps. Precondition: flushed.
   void archive(Archive& archive);

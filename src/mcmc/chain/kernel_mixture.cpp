@@ -22,6 +22,7 @@ std::vector<std::string> KernelMixture::kindNames() const {
 }
 
 Division KernelMixture::division() const {
+  if (level) return {*level};
   const double mean = meanTarget.value_or(0);
   if (!held_.empty()) return {(largeProbability + baseSamples) * mean, held_.data(), mean};
   if (!(baseSamples > 0)) return {largeProbability * mean};

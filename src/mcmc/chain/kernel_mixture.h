@@ -36,6 +36,8 @@ struct KernelMixture {
   double baseSamples = 0;
   // Whether the division between states and samples knows for how long chains stay where they are.
   bool dividesByHolding = false;
+  // Of the division, where it is not that of large steps and base samples.
+  std::optional<double> level;
   // The film's, in pixels.
   float width = 1, height = 1;
 

@@ -28,6 +28,11 @@ std::span<const Preset> presets() {
                                        {"smallStep", "kelemen"},
                                        {"importanceMap", "false"},
                                        {"directSamples", "0"}};
+  static constexpr Option kErpt[] = {{"numChains", "1"},       {"chainLength", "100"},
+                                     {"targetLimit", "0"},     {"lensShare", "0"},
+                                     {"isotropicShare", "0"},  {"hamiltonianShare", "0"},
+                                     {"veachLensShare", "1"},  {"causticShare", "1"},
+                                     {"multiChainShare", "1"}, {"roughnessThreshold", "0"}};
   static constexpr Preset kPresets[] = {
       {"mmlt-2014",
        "Hachisuka, Kaplanyan, Dachsbacher 2014: one technique at a time, Kelemen's steps, "
@@ -51,6 +56,12 @@ std::span<const Preset> presets() {
        "light by "
        "the chains",
        "pssmlt", kPssmlt},
+      {"erpt-2005",
+       "Cline, Talbot, Egbert 2005, with the constants of Mitsuba's: chains of 100 perturbations "
+       "in "
+       "path space, one a sample on average, only what is perfectly smooth counts as specular; "
+       "without the filters, which are biased",
+       "erpt", kErpt},
   };
   return kPresets;
 }

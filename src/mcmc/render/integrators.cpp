@@ -3,6 +3,7 @@
 
 #include "mcmc/methods/methods.h"
 #include "mcmc/render/metropolis_integrator.h"
+#include "mcmc/tours/tour_integrator.h"
 
 namespace h2mc {
 
@@ -12,6 +13,10 @@ std::span<const IntegratorFactory> allIntegrators() {
     for (const MetropolisMethod& method : metropolisMethods())
       all.push_back({method.plugin(), [&method](const OptionSet& options) {
                        return makeMetropolisIntegrator(method, options);
+                     }});
+    for (const TourMethod& method : tourMethods())
+      all.push_back({method.plugin(), [&method](const OptionSet& options) {
+                       return makeTourIntegrator(method, options);
                      }});
     return all;
   }();

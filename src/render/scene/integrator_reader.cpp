@@ -41,7 +41,6 @@ constexpr Foreign kForeign[] = {
     {"upm", "bdpt", kNearest},
     {"vpl", "bdpt", kNearest},
     {"mlt", "mmlt", kNearest},
-    {"erpt", "mmlt", kNearest},
     {"ao", "", ""},
     {"field", "", ""},
     {"depth", "", ""},
@@ -57,9 +56,18 @@ constexpr std::string_view kShared[] = {"maxDepth", "rrDepth"};
 // Paths of direct light: seen directly, and by way of one surface.
 constexpr const char* kDirectDepth = "2";
 
-// Parameters of Mitsuba's path and bdpt that ours have no option for.
+// Parameters of Mitsuba's path and bdpt that ours have no option for, and of its erpt.
 constexpr std::string_view kIgnored[] = {"strictNormals",  "lightImage", "sampleDirect",
                                          "samplesPerPass", "blockSize",  "timeout"};
+constexpr std::string_view kIgnoredOfErpt[] = {
+    "rrDepth",
+    "maxChains",
+    "lensPerturbation",
+    "multiChainPerturbation",
+    "causticPerturbation",
+    "manifoldPerturbation",
+    "lambda",
+};
 
 const IntegratorPlugin* find(std::span<const IntegratorPlugin> integrators, std::string_view name) {
   for (const IntegratorPlugin& plugin : integrators)
@@ -144,7 +152,7 @@ void hideEmitters(ReaderContext& context, const XmlElement& child) {
 }
 
 void readOwnParameter(ReaderContext& context, const IntegratorPlugin& plugin,
-                      const XmlElement& child, bool isMitsubas) {
+                      const XmlElement& child, std::span<const std::string_view> ignored) {
   const std::string& written = child.require("name");
   if (matches(written, "hideEmitters")) return;  // by readHidden(), when minDepth is known
   for (const Parameter& p : plugin.parameters) {
@@ -163,7 +171,7 @@ void readOwnParameter(ReaderContext& context, const IntegratorPlugin& plugin,
     setOption(context, p.name, child.attribute("value"), child.place("value"));
     return;
   }
-  if (const std::string_view name = among(kIgnored, written); isMitsubas && !name.empty()) {
+  if (const std::string_view name = among(ignored, written); !name.empty()) {
     checkValue(child);
     context.note("accepted and not used: parameter \"" + std::string(name) + "\" of integrator \"" +
                  std::string(plugin.name) + "\"");
@@ -217,12 +225,12 @@ void checkChildren(ReaderContext& context, const XmlElement& element) {
 }
 
 void readOwnIntegrator(ReaderContext& context, const XmlElement& element,
-                       const IntegratorPlugin& plugin, bool isMitsubas) {
+                       const IntegratorPlugin& plugin, std::span<const std::string_view> ignored) {
   checkChildren(context, element);
   context.scene.integrator = OptionSet(plugin);
   for (const XmlElement& child : element.children) {
     try {
-      readOwnParameter(context, plugin, child, isMitsubas);
+      readOwnParameter(context, plugin, child, ignored);
     } catch (const SceneError& e) {
       context.problems.add(e);
     }
@@ -262,7 +270,10 @@ void readIntegrator(ReaderContext& context, const XmlElement& element,
   const bool known = foreign != std::end(kForeign);
   const IntegratorPlugin* plugin = find(integrators, type);
   if (plugin) {
-    readOwnIntegrator(context, *inner, *plugin, type == "path" || type == "bdpt");
+    std::span<const std::string_view> ignored;
+    if (type == "path" || type == "bdpt") ignored = kIgnored;
+    if (type == "erpt") ignored = kIgnoredOfErpt;
+    readOwnIntegrator(context, *inner, *plugin, ignored);
     readHidden(context, *inner);
     return;
   }

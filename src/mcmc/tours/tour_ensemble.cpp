@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "mcmc/tours/tour_ensemble.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "render/core/archive.h"
+
+namespace h2mc {
+namespace {
+
+// The first epoch's mutations a pixel, and so many make a cell: as for the methods of chains.
+constexpr double kFirstEpoch = 4, kMutationsPerCell = 256;
+
+double limitOf(const OptionSet& options, double meanLuminance) {
+  const double times = options.number("targetLimit");
+  return times > 0 ? times * meanLuminance : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+TourEnsemble::TourEnsemble(const Scene& scene, const TourMethod& method, const OptionSet& options,
+                           double meanLuminance, int minLength, int maxLength,
+                           const RenderRequest& request)
+    : scene_(scene),
+      asked_(request.pixelStatistics),
+      target_(scene, maxLength, limitOf(options, meanLuminance)),
+      rule_(method.rule(options, meanLuminance)),
+      picture_(scene.film, request.threads, rule_->weight(), asked_) {
+  groups_.reserve(kGroups);
+  for (int g = 0; g < kGroups; ++g)
+    groups_.emplace_back(target_, *rule_,
+                         makeTourKernels(target_, options, minLength, meanLuminance), minLength,
+                         request.seed, asked_.counts);
+}
+
+void TourEnsemble::run(long long batch) {
+  TourGroup& group = groups_[at(static_cast<int>(batch % kGroups))];
+  group.run(batch);
+  picture_.sort(group.films());
+}
+
+void TourEnsemble::endRound() {
+  std::vector<TourPicture::Part> parts;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const long long samples = groups_[g].counts().samples;
+    if (samples == samplesBefore_[g]) continue;
+    parts.push_back({&groups_[g].films(), static_cast<int>(g % 2), samples - samplesBefore_[g]});
+    samplesBefore_[g] = samples;
+  }
+  picture_.add(parts);
+}
+
+TourCounts TourEnsemble::counts() const {
+  TourCounts all;
+  for (const TourGroup& group : groups_) all.add(group.counts());
+  return all;
+}
+
+ChainStatistics TourEnsemble::statistics() const {
+  ChainStatistics all = groups_[0].statistics();
+  for (std::size_t g = 1; g < groups_.size(); ++g) all.add(groups_[g].statistics());
+  return all;
+}
+
+double TourEnsemble::mutationsPerPixel() const {
+  return static_cast<double>(counts().mutations) /
+         (static_cast<double>(scene_.film.width) * scene_.film.height);
+}
+
+int TourEnsemble::cell() const {
+  return std::max(1, static_cast<int>(std::lround(
+                         std::sqrt(kMutationsPerCell / std::max(mutationsPerPixel(), 1e-6)))));
+}
+
+bool TourEnsemble::epochIsOver() const {
+  return mutationsPerPixel() >= kFirstEpoch * std::pow(kGrowth, epoch_);
+}
+
+void TourEnsemble::nextEpoch() {
+  ++epoch_;
+  const ChainStatistics all = statistics();
+  for (TourGroup& group : groups_) group.learn(all);
+}
+
+TwoEstimates TourEnsemble::halves() const {
+  const TourCounts all = counts();
+  return picture_.halves(
+      all.samples > 0 ? static_cast<double>(all.mutations) / static_cast<double>(all.samples) : 0);
+}
+
+void TourEnsemble::archive(Archive& archive) {
+  archive(picture_, samplesBefore_, epoch_);
+  for (TourGroup& group : groups_) archive(group);
+}
+
+RenderResult TourEnsemble::result() const {
+  const ChainStatistics statistics = this->statistics();
+  const TourCounts all = counts();
+  BlockMoments blocks;
+  for (const TourGroup& group : groups_) blocks.add(group.blocks());
+
+  RenderResult result;
+  result.sampleUnit = "mutations";
+  result.image = picture_.image();
+  if (asked_.variance) result.variance = picture_.variance();
+  if (asked_.counts) result.counts = picture_.counts();
+  result.samples = all.mutations;
+  result.meanLuminance = blocks.whole().mean();
+  result.meanLuminanceError = blocks.whole().standardError();
+  result.statistics = statistics.json(groups_[0].kernels().kindNames());
+  result.statistics["mutation kinds"].erase("large");
+  result.statistics["tours"] = all.json();
+  result.statistics["blocks"] = blocks.json(scene_.radianceUnit);
+  result.statistics["epochs"] = epoch_ + 1;
+  return result;
+}
+
+}  // namespace h2mc
