@@ -18,6 +18,10 @@ std::span<const Preset> presets() {
                                      {"lensSigma", "0.01"},
                                      {"importanceMap", "false"},
                                      {"directSamples", "16"}};
+  static constexpr Option kLmc[] = {
+      {"largeStep", "multiplexed"},    {"largeStepProbability", "0.05"}, {"lensProbability", "0"},
+      {"isotropicProbability", "0.1"}, {"preconditioner", "published"},  {"sigma", "0.005"},
+      {"stepSize", "0.005"},           {"importanceMap", "false"},       {"directSamples", "16"}};
   static constexpr Option kMlt[] = {{"largeStepProbability", "0"},
                                     {"baseSamples", "0"},
                                     {"roughnessThreshold", "0"},
@@ -44,6 +48,11 @@ std::span<const Preset> presets() {
        "fifth "
        "of isotropic steps, luminance as the target, direct light by 16 samples a pixel",
        "h2mc", kH2mc},
+      {"lmc-2020",
+       "Luan et al. 2020, online, with the constants of the authors' program, as far as it is "
+       "exact: the preconditioner is fixed for an epoch, the drift has no momentum, no chain is "
+       "reset",
+       "lmc", kLmc},
       {"mlt-1997",
        "Veach and Guibas 1997: path-space mutations alone, no large steps beside them, only what "
        "is "

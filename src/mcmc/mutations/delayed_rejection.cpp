@@ -94,9 +94,9 @@ MutationPlugin isotropicThenHamiltonian() {
 }
 
 MutationPlugin isotropicThenLangevin() {
-  static constexpr Parameter kParameters[] = {kFirstSigmaParameter, kSigmaParameter,
-                                              kStepSizeParameter, kMaxDriftParameter,
-                                              kTargetAcceptanceParameter};
+  static constexpr Parameter kParameters[] = {kFirstSigmaParameter,       kSigmaParameter,
+                                              kStepSizeParameter,         kMaxDriftParameter,
+                                              kTargetAcceptanceParameter, kPreconditionerParameter};
   return {"isotropicThenLangevin",
           "an isotropic step and, where it is refused, a Langevin one [Rioux-Lavoie et al. 2020]",
           kParameters,

@@ -21,6 +21,16 @@ constexpr double kLeast = 64;
 // Squares count no further than this: a mean of fewer than a thousand must not hang on one of them.
 constexpr double kMostSquare = 1e6;
 
+// The authors' longest gradient.
+constexpr float kLongestGradient = 100;
+void shorten(Gradient& gradient) {
+  float squares = 0;
+  for (int i = 0; i < gradient.dimension; ++i) squares += squared(gradient.gradient[i]);
+  if (!(squares > squared(kLongestGradient))) return;
+  const float factor = kLongestGradient / std::sqrt(squares);
+  for (int i = 0; i < gradient.dimension; ++i) gradient.gradient[i] *= factor;
+}
+
 std::size_t placeOf(const Path& path) {
   const int length = path.technique.length();
   return at((2 * (length * (length + 1) / 2 + path.technique.s) + path.moving) * kStride);
@@ -68,28 +78,41 @@ void LangevinStep::make(const Path& path, MutationContext& context, Gaussian& ga
     ++context.derivatives.notFinite;
     return;
   }
+  if (settings_.published) shorten(gradient);
   if (context.sums) GradientSquares::add(path, gradient, *context.sums);
   const float* const squares = squares_.of(path);
-  const float prior = 1 / squared(sigma()), curvature = 1 / squared(settings_.stepSize);
   const float size2 = squared(sizes_.of(path.technique.length()));
   gaussian.logNormalisation = 0;
   for (int i = 0; i < gaussian.dimension; ++i) {
     const float g = gradient.gradient[i];
-    const float square = std::max(squared(g), squares ? squares[i] : 0);
-    const float variance = size2 / (prior + curvature * square), deviation = std::sqrt(variance);
-    const float longest = settings_.maxDrift * deviation;
+    const float* const square = squares ? squares + i : nullptr;
+    const Law law =
+        settings_.published ? publishedLawOf(g, square, size2) : lawOf(g, square, size2);
+    const float deviation = std::sqrt(law.variance), longest = settings_.maxDrift * deviation;
     gaussian.deviation[i] = deviation;
-    gaussian.mean[i] = std::clamp(variance * g / 2, -longest, longest);
+    gaussian.mean[i] = std::clamp(law.drift, -longest, longest);
     gaussian.logNormalisation -= std::log(double(deviation));
   }
 }
 
+LangevinStep::Law LangevinStep::lawOf(float g, const float* square, float size2) const {
+  const float prior = 1 / squared(sigma()), curvature = 1 / squared(settings_.stepSize);
+  const float variance = size2 / (prior + curvature * std::max(squared(g), square ? *square : 0));
+  return {variance, variance * g / 2};
+}
+
+LangevinStep::Law LangevinStep::publishedLawOf(float g, const float* square, float size2) const {
+  const float root = square ? std::sqrt(*square) : std::abs(g);
+  const float scale = std::clamp(1 / (1e-3f + root), 0.01f, 100.f);
+  const float variance =
+      size2 / (1 / (squared(settings_.stepSize) * (scale + 1)) + 1 / squared(sigma()));
+  return {variance, variance * std::clamp(g, -5.f, 5.f) / 2};
+}
+
 MutationPlugin langevinStep() {
   static constexpr Parameter kParameters[] = {
-      kSigmaParameter,
-      kStepSizeParameter,
-      kMaxDriftParameter,
-      kTargetAcceptanceParameter,
+      kSigmaParameter,          kStepSizeParameter, kMaxDriftParameter, kTargetAcceptanceParameter,
+      kPreconditionerParameter,
   };
   return {"langevin", "a step drawn from the Gaussian that the gradient gives by Langevin dynamics",
           kParameters,
@@ -97,9 +120,10 @@ MutationPlugin langevinStep() {
             const auto number = [&](const char* name) {
               return static_cast<float>(setup.options.number(name));
             };
-            const LangevinStep::Settings settings{number("sigma"), number("stepSize"),
-                                                  number("maxDrift"),
-                                                  setup.options.number("targetAcceptance")};
+            const LangevinStep::Settings settings{
+                number("sigma"), number("stepSize"), number("maxDrift"),
+                setup.options.number("targetAcceptance"),
+                setup.options.string("preconditioner") == "published"};
             return std::make_unique<LangevinStep>(setup.target, settings, setup.slots);
           },
           [](const OptionSet& options) {

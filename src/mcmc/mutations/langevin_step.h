@@ -36,6 +36,13 @@ class GradientSquares {
 // f being StepSizes' factor, the drift bounded to maxDrift deviations. The Gaussian is a function of the state while an
 // epoch lasts, and the reverse density is that of the Gaussian at the proposal: the step is exact. (The authors'
 // program lets the preconditioner follow the chain, whose reverse density is another one.)
+//
+// Or with the authors' preconditioner, as far as it can be a function of the state: g scaled to a norm of at most 100,
+//
+//     1 / variance_i = 1 / (stepSize^2 (M_i + 1)) + 1 / sigma^2,    M_i = 1 / (0.001 + sqrt(G_i)) within [0.01, 100],
+//
+// and N(variance_i / 2 times g_i within [-5, 5], variance_i). Where theirs has running means of g and g^2 along the
+// chain, g is that of the state, and G_i the mean over past epochs, or g_i^2 before there is one.
 class LangevinStep final : public GaussianStep {
  public:
   struct Settings {
@@ -43,6 +50,7 @@ class LangevinStep final : public GaussianStep {
     float stepSize = 1;
     float maxDrift = 3;
     double targetAcceptance = 0;  // as StepSizes
+    bool published = false;       // the authors' preconditioner
   };
   // Keeps a reference.
   LangevinStep(const Target& target, const Settings& settings, SlotNumbers& slots)
@@ -55,6 +63,12 @@ class LangevinStep final : public GaussianStep {
 
  private:
   void make(const Path& path, MutationContext& context, Gaussian& gaussian) const override;
+  struct Law {
+    float variance, drift;
+  };
+  // Of a coordinate with this derivative, and mean square of it; null: not known. `size2`: the square of StepSizes'.
+  Law lawOf(float g, const float* square, float size2) const;
+  Law publishedLawOf(float g, const float* square, float size2) const;
 
   Settings settings_;
   GradientSquares squares_;

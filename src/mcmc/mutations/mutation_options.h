@@ -22,6 +22,11 @@ inline constexpr Parameter kTrajectoryLengthParameter = {
 inline constexpr Parameter kStepSizeParameter = {
     "stepSize", ParameterType::kNumber, "1",
     "deviation of a Langevin step along a coordinate, times the derivatives met there"};
+inline constexpr Parameter kPreconditionerParameter = {
+    "preconditioner", ParameterType::kString, "squares",
+    "of Langevin steps: by the derivatives' mean squares, or the authors', with a stepSize like "
+    "sigma",
+    "squares|published"};
 inline constexpr Parameter kMaxDriftParameter = {
     "maxDrift", ParameterType::kNumber, "3",
     "longest drift of a proposal along an eigenvector or axis, in its standard deviations"};
