@@ -179,7 +179,7 @@ class WrongRule final : public TourRule {
     return static_cast<long long>(target / inner_->weight());
   }
   bool goesOn(long long made, double target, Random& random) const override {
-    const double seen = mistake_ == RuleMistake::kLivesLonger ? 1.1 * target : target;
+    const double seen = mistake_ == RuleMistake::kLivesLonger ? 1.25 * target : target;
     return inner_->goesOn(made, seen, random);
   }
   double level() const override { return inner_->level(); }
@@ -236,7 +236,8 @@ TEST(TourRules, AKernelsMistakeIsSeenSlow) {
 }
 
 // Of 200 short renders the 95 % intervals by the errors that --stats tells hold what is right between 92 and 98 times
-// of 100, for the blocks and for the whole film.
+// of 100: for the whole film, and for the blocks that are bright enough for some dozens of tours to get there. (What
+// three or four have found is no normal variate.)
 class ErrorBars : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ErrorBars, HoldSlow) {
@@ -246,14 +247,14 @@ TEST_P(ErrorBars, HoldSlow) {
   int inside = 0, all = 0, wholeInside = 0;
   for (int run = 0; run < kRuns; ++run) {
     RenderRequest request;
-    request.budget.mutationsPerPixel = 260;
+    request.budget.mutationsPerPixel = 520;
     request.seed = static_cast<std::uint64_t>(run) + 1;
     const RenderResult result = renderTiny(GetParam(), world.scene, request,
                                            {{"maxDepth", std::to_string(world.maxLength)},
                                             {"directSamples", "0"},
                                             {"luminanceSamples", "2000"},
-                                            {"chainLength", "10"},
-                                            {"tourLength", "10"}});
+                                            {"chainLength", "5"},
+                                            {"tourLength", "5"}});
     const auto holds = [](double value, double error, const Moments& right) {
       return std::abs(value - right.mean()) < 1.96 * std::hypot(error, right.standardError());
     };
@@ -261,7 +262,7 @@ TEST_P(ErrorBars, HoldSlow) {
     for (int k = 0; k < kBlocks; ++k) {
       const Moments& right =
           reference.block(k % BlockMoments::kColumns, k / BlockMoments::kColumns);
-      if (!(right.mean() > 0)) continue;
+      if (!(right.mean() > reference.whole().mean() / 2)) continue;
       inside +=
           holds(blocks["mean luminance"][at(k)].get<double>() / world.scene.radianceUnit,
                 blocks["standard error"][at(k)].get<double>() / world.scene.radianceUnit, right);
