@@ -19,7 +19,7 @@ BINARY = os.environ.get("H2MC_BINARY", "")
 SOURCE_DIR = os.environ.get("H2MC_SOURCE_DIR",
                             os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 RING = os.path.join(SOURCE_DIR, "scenes", "ring", "ring.xml")
-INTEGRATORS = ("path", "bdpt", "mmlt", "h2mc", "lmc", "rjmlt", "mlt", "pssmlt", "erpt", "restore")
+INTEGRATORS = ("path", "bdpt", "mmlt", "h2mc", "lmc", "rjmlt", "mlt", "pssmlt", "remlt", "erpt", "restore")
 
 
 def wait_for_handler(process, seconds=60):

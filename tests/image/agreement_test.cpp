@@ -47,7 +47,8 @@ TEST_P(OwnScenes, SlowIntegratorsAgree) {
   auto chains = options;
   chains.insert(chains.end(),
                 {{"bootstrapSamples", "150000"}, {"directSamples", "48"}, {"chains", "256"}});
-  for (const char* integrator : {"path", "mmlt", "h2mc", "lmc", "rjmlt", "mlt", "pssmlt"}) {
+  for (const char* integrator :
+       {"path", "mmlt", "h2mc", "lmc", "rjmlt", "mlt", "pssmlt", "remlt"}) {
     const bool path = std::string(integrator) == "path";
     expectAgreement(renderRuns(scene, integrator, path ? options : chains, kRuns,
                                path ? pathSamples(name) : 8, kEdge),

@@ -43,7 +43,8 @@ TEST(Methods, AnOptionBelongsToTheMethodsThatHaveItsMutation) {
 TEST(Methods, OptionsThatDoNotGoTogether) {
   const Scene scene = SceneFolder().read(sceneWith(""));
   for (const char* wish :
-       {"h2mc:delayedRejection=true,isotropicProbability=0.2",
+       {"remlt:replicas=0", "remlt:leastPower=0", "h2mc:replicas=2",
+        "h2mc:delayedRejection=true,isotropicProbability=0.2",
         "h2mc:divisionByHolding=true,baseSamples=0", "mmlt-2014:divisionByHolding=true"})
     EXPECT_THROW(chooseIntegrator(wish, scene), OptionError) << wish;
   for (const char* wish : {"h2mc:delayedRejection=true", "mmlt:divisionByHolding=true"})

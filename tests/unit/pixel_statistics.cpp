@@ -198,7 +198,7 @@ TEST(PixelStatistics, VarianceOfOneSample) {
 
 INSTANTIATE_TEST_SUITE_P(Integrators, OfRenders,
                          ::testing::Values("path", "bdpt", "mmlt", "h2mc", "lmc", "rjmlt", "mlt",
-                                           "pssmlt", "erpt", "restore"),
+                                           "pssmlt", "remlt", "erpt", "restore"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace

@@ -178,7 +178,7 @@ TEST_P(Resume, RefusesWhatDoesNotFit) {
 
 INSTANTIATE_TEST_SUITE_P(Integrators, Resume,
                          ::testing::Values("path", "bdpt", "mmlt", "h2mc", "lmc", "rjmlt", "mlt",
-                                           "pssmlt", "erpt", "restore"),
+                                           "pssmlt", "remlt", "erpt", "restore"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "mcmc/methods/mlt.h"
 #include "mcmc/methods/mmlt.h"
 #include "mcmc/methods/pssmlt.h"
+#include "mcmc/methods/remlt.h"
 #include "mcmc/methods/rjmlt.h"
 #include "mcmc/mutations/mutations.h"
 
@@ -40,8 +41,8 @@ std::vector<Parameter> allParameters(const MetropolisMethod& method) {
 std::span<const MetropolisMethod> metropolisMethods() {
   // A new method is a line here.
   static const std::vector<MetropolisMethod> list = [] {
-    std::vector<MetropolisMethod> methods{mmltMethod(),  h2mcMethod(), lmcMethod(),
-                                          rjmltMethod(), mltMethod(),  pssmltMethod()};
+    std::vector<MetropolisMethod> methods{mmltMethod(), h2mcMethod(),   lmcMethod(),  rjmltMethod(),
+                                          mltMethod(),  pssmltMethod(), remltMethod()};
     for (MetropolisMethod& method : methods) method.parameters = allParameters(method);
     return methods;
   }();

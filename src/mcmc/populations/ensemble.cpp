@@ -76,6 +76,23 @@ ChainEnsemble::ChainEnsemble(const Scene& scene, const MetropolisMethod& method,
         target_, members.states[at(c)], Random(seed_, kChainStream, static_cast<std::uint64_t>(c)));
   });
   formGroups(members.half);
+  if (options.has("replicas")) addReplicas(method, options, minLength);
+}
+
+void ChainEnsemble::addReplicas(const MetropolisMethod& method, const OptionSet& options,
+                                int minLength) {
+  const std::vector<double> powers =
+      Replicas::powers(options.integer("replicas"), options.number("leastPower"));
+  const double mean = luminance().mean;
+  parallelFor(threads_, groups(), [&](int g) {
+    Group& group = groups_[at(g)];
+    const auto kernels = [&](const PathTarget& target) {
+      return makeKernels(method, target, techniques_, options, minLength);
+    };
+    group.replicas =
+        std::make_unique<Replicas>(target_, powers, mean, kernels, chains_[group.begin]->path(),
+                                   seed_, static_cast<std::uint64_t>(g));
+  });
 }
 
 void ChainEnsemble::formGroups(std::size_t half) {
@@ -102,6 +119,10 @@ void ChainEnsemble::run(int index, long long steps) {
     for (long long i = 0; i < steps; ++i)
       chain.step(group.kernels, group.films, group.statistics, group.context);
     chain.flush(group.kernels, group.films.states);
+  }
+  if (group.replicas) {
+    group.replicas->run(steps);
+    for (std::size_t c = group.begin; c < group.end; ++c) group.replicas->exchange(*chains_[c]);
   }
   if (group.base)
     group.base->extendTo(group.kernels.baseSamples,
@@ -231,8 +252,24 @@ void ChainEnsemble::archive(Archive& archive) {
     archive(group.kernels, group.statistics, group.context.derivatives, group.context.notFinite,
             group.mutationsBefore, group.samplesBefore, group.mutationsOfPast);
     if (group.base) archive(*group.base);
+    if (group.replicas) archive(*group.replicas);
   }
   if (archive.reading()) formGroups(half_);
+}
+
+nlohmann::json ChainEnsemble::replicasJson() const {
+  nlohmann::json rungs = nlohmann::json::array();
+  const std::size_t count = groups_[0].replicas->rungs().size();
+  for (std::size_t r = 0; r < count; ++r) {
+    Replicas::Rung all{};
+    for (const Group& group : groups_) all.add(group.replicas->rungs()[r]);
+    rungs.push_back({{"power", all.power},
+                     {"mutations", all.mutations},
+                     {"exchanges", all.exchanges.proposed},
+                     {"accepted", all.exchanges.expected /
+                                      static_cast<double>(std::max(all.exchanges.proposed, 1LL))}});
+  }
+  return rungs;
 }
 
 RenderResult ChainEnsemble::result() const {
@@ -264,6 +301,7 @@ RenderResult ChainEnsemble::result() const {
         {"mean luminance", base.mean()},
         {"standard error", base.standardError()}};
   }
+  if (groups_[0].replicas) result.statistics["replicas"] = replicasJson();
   const auto noise = [&](double ofOne, long long count) {
     return count > 0 ? ofOne / perPixel(static_cast<double>(count)) : 0;
   };

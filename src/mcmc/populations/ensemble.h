@@ -9,6 +9,7 @@
 #include "mcmc/populations/image_estimate.h"
 #include "mcmc/populations/luminance_estimate.h"
 #include "mcmc/populations/population.h"
+#include "mcmc/populations/replicas.h"
 #include "render/integrator/integrator.h"
 
 namespace h2mc {
@@ -68,7 +69,8 @@ class ChainEnsemble {
     ChainStatistics statistics;
     MutationContext context;
     std::unique_ptr<BaseSamples> base;  // null: none
-    std::size_t begin = 0, end = 0;     // of its chains
+    std::unique_ptr<Replicas> replicas = nullptr;
+    std::size_t begin = 0, end = 0;  // of its chains
     int half = 0;
     long long mutationsBefore = 0, samplesBefore = 0;  // the present round
     long long mutationsOfPast = 0;                     // epochs
@@ -81,6 +83,9 @@ class ChainEnsemble {
     }
   };
 
+  // Puts replicas beside the groups' chains, where the options ask for them.
+  void addReplicas(const MetropolisMethod& method, const OptionSet& options, int minLength);
+  nlohmann::json replicasJson() const;
   // Deals the chains out to the groups, each of which has chains of one half.
   void formGroups(std::size_t half);
   ChainStatistics statistics() const;

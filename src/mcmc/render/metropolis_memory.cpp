@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "mcmc/chain/chain.h"
 #include "render/core/index.h"
 #include "render/integrator/memory_need.h"
+#include "render/integrator/parallel_rounds.h"
 
 namespace h2mc {
 namespace {
@@ -51,7 +54,10 @@ void requireMetropolisMemory(const Scene& scene, const OptionSet& options,
       (direct ? kImage : 0) + (marks ? kInEpoch + (direct ? 24 : kImage) : kBetweenEpochs);
   if (asked.variance) pixel += kVariance + (direct ? kDirectVariance : 0);
   if (asked.counts) pixel += kCounts;
-  const double chains = options.integer("chains"), samples = static_cast<double>(bootstrapSamples);
+  double chains = options.integer("chains");
+  if (options.has("replicas"))
+    chains += std::min(chains, double(kMostGroups)) * options.integer("replicas");
+  const double samples = static_cast<double>(bootstrapSamples);
   const double chain = bytesAChain(options, maxLength) + (asked.counts ? kSplats : 0);
   requireMemory(
       {filmMemory(scene.film, pixel),
