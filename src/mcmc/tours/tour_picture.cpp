@@ -66,7 +66,7 @@ TwoEstimates TourPicture::halves(double mutationsASample) const {
 // The picture is (n_0 a + n_1 b) / n. Where one sample has variance v, a - b has v / n_0 + v / n_1, the picture v / n.
 Image TourPicture::variance() const {
   Image result = image();
-  const auto [n0, n1] = samples_;
+  const double n0 = samples_[0], n1 = samples_[1];
   const bool both = n0 > 0 && n1 > 0;
   const auto share = static_cast<float>(both ? n0 * n1 / squared(n0 + n1) : 1);
   parallelFor(threads_, result.height, [&](int y) {
