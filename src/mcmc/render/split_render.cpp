@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/core/archive.h"
-
 namespace h2mc {
 
 SplitRender::SplitRender(const OptionSet& options, int maxLength, const Scene& scene,

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "mcmc/render/direct_lighting.h"
+#include "render/core/archive.h"
 #include "render/integrator/integrator.h"
 #include "render/integrator/parallel_rounds.h"
 
@@ -53,6 +54,7 @@ class SplitRender : public RenderInProgress {
   struct NotFinite {
     long long count = 0;
     std::string first;
+    void archive(Archive& archive) { archive(count, first); }
   };
   // The picture of the mutations, or nothing, as the render's: with direct light, in the scene's units, with what was not
   // finite of `source` ("chains"), of the bootstrap and of direct light.

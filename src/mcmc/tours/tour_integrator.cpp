@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "mcmc/populations/bootstrap.h"
-#include "mcmc/render/direct_lighting.h"
+#include "mcmc/render/split_render.h"
 #include "mcmc/tours/tour_ensemble.h"
 #include "render/core/archive.h"
 #include "render/integrator/common_options.h"
@@ -22,23 +22,11 @@ namespace {
 constexpr long long kMostBootstrap = 200000;
 
 // One render: direct lighting, then tours, and more direct lighting between their epochs.
-class TourRender final : public RenderInProgress {
+class TourRender final : public SplitRender {
  public:
   TourRender(const TourMethod& method, const OptionSet& options, int maxLength, const Scene& scene,
              const RenderRequest& request)
-      : method_(method),
-        options_(options),
-        scene_(scene),
-        request_(request),
-        mutationsPerPixel_(mutationBudget()),
-        directRequest_(directRequest()),
-        direct_(scene, options, directRequest_),
-        minLength_(split() ? DirectLighting::longest(scene) + 1 : options.integer("minDepth")),
-        maxLength_(maxLength) {
-    if (request_.watch) direct_.setWatch([this] { look(); });
-  }
-  TourRender(const TourRender&) = delete;
-  TourRender& operator=(const TourRender&) = delete;
+      : SplitRender(options, maxLength, scene, request), method_(method) {}
 
   RenderResult run();
 
@@ -47,76 +35,29 @@ class TourRender final : public RenderInProgress {
   }
   // Direct light that was cut short has another number of samples than it would have had.
   bool isExact() const override { return !inexact_ && !direct_.interrupted(); }
-  bool isOver() const override { return over_; }
   void save(Archive& archive) override;
-  void pause(const std::function<void()>& work) override {
-    clock_.exclude([&] { direct_.pause(work); });
-  }
 
  private:
   enum class Stage : int { kDirect, kTours };
 
-  bool timed() const { return request_.budget.seconds > 0; }
-  bool stopped() const { return request_.stop && *request_.stop; }
-  // Whether direct lighting is left out of the tours.
-  bool split() const { return direct_.wanted(); }
-  double pixels() const { return static_cast<double>(scene_.film.width) * scene_.film.height; }
-  // 0 where seconds are the only limit.
-  long long mutationBudget() const {
-    const RenderBudget& budget = request_.budget;
-    const long long asked = budget.mutationsPerPixel + budget.samplesPerPixel;
-    return asked == 0 && !timed() ? options_.integer("mutationsPerPixel") : asked;
-  }
-  RenderRequest directRequest() const;
   double meanLuminance();
-  void extendDirect(std::size_t mark);
-  void balanceDirect();
   void endEpoch();
-  void atMark(std::size_t mark);
   RoundsPlan plan();
   RenderResult withTours();
-  RenderResult directAlone();
-  RenderResult finished(RenderResult result) const;
-  void look() { request_.watch(*this); }
-  void lookLast() {
-    over_ = true;
-    if (request_.watch) look();
+  using SplitRender::finished;
+  RenderResult finished(RenderResult result) const override {
+    return finished(std::move(result), "tours", bootstrapNotFinite_);
   }
   void archiveRender(Archive& archive);
 
-  RenderClock clock_;
   const TourMethod& method_;
-  const OptionSet& options_;
-  const Scene& scene_;
-  const RenderRequest& request_;
-  const long long mutationsPerPixel_;
-  const RenderRequest directRequest_;
-  DirectLighting direct_;
-  const int minLength_, maxLength_;  // of the tours' paths
-  double meanLuminance_ = 0;         // about
-  long long bootstrapNotFinite_ = 0;
+  double meanLuminance_ = 0;  // about
+  NotFinite bootstrapNotFinite_;
   std::optional<TourEnsemble> tours_;
   Stage stage_ = Stage::kDirect;
   long long rounds_ = 0;  // made
   bool inexact_ = false;  // the stop flag was set before the tours began
-  bool over_ = false;
-  std::size_t nextMark_ = 0;
-  double toursBegan_ = 0, directBefore_ = 0;  // seconds of the clock, seconds of direct_ by then
 };
-
-RenderRequest TourRender::directRequest() const {
-  RenderRequest r = request_;
-  r.progress = nullptr;
-  r.watch = nullptr;
-  r.resume = nullptr;
-  if (request_.progress && timed())
-    r.progress = [this](const RenderProgress& own) {
-      const double now = clock_.wallSeconds();
-      request_.progress(
-          {std::min(now / request_.budget.seconds, 1.0), now, own.rate, own.rateUnit});
-    };
-  return r;
-}
 
 // From samples that the tours do not have: what they make of it is then right whatever it is.
 double TourRender::meanLuminance() {
@@ -125,78 +66,18 @@ double TourRender::meanLuminance() {
                       request_.stop);
   while (!(bootstrap.luminance().mean() > 0) && samples < kMostBootstrap && !stopped())
     bootstrap.extendTo(samples *= 2);
-  bootstrapNotFinite_ = bootstrap.notFinite();
+  bootstrapNotFinite_ = {bootstrap.notFinite(), bootstrap.firstNotFinite()};
   return bootstrap.luminance().mean();
-}
-
-// Up to mark i it gets what a render that ends there would give it.
-void TourRender::extendDirect(std::size_t mark) {
-  if (!split()) return;
-  const double end = mark < request_.marks.size() ? request_.marks[mark] : 0;
-  if (timed())
-    direct_.extendTo(end > 0 ? end : request_.budget.seconds, 0);
-  else
-    direct_.extendTo(0, end > 0 ? std::llround(end) : mutationsPerPixel_);
-}
-
-void TourRender::balanceDirect() {
-  const TwoEstimates picture = tours_->halves();
-  direct_.measure(picture, direct_.weights(picture.mean(), tours_->cell()));
-  DirectLighting::Standing now;
-  now.mutations = tours_->mutationsPerPixel();
-  now.seconds = clock_.wallSeconds();
-  now.chainSeconds = now.seconds - toursBegan_ - (direct_.seconds() - directBefore_);
-  if (nextMark_ < request_.marks.size())
-    (timed() ? now.endSeconds : now.endMutations) = request_.marks[nextMark_];
-  else if (timed())
-    now.endSeconds = request_.budget.seconds;
-  else
-    now.endMutations = static_cast<double>(mutationsPerPixel_);
-  now.growth = TourEnsemble::kGrowth;
-  direct_.balance(now);
 }
 
 // A state that is saved while direct light is made has the next epoch's kernels already.
 void TourRender::endEpoch() {
   tours_->nextEpoch();
-  if (split()) balanceDirect();
-}
-
-void TourRender::atMark(std::size_t mark) {
-  clock_.exclude([&] { request_.atMark(mark, result()); });
-  nextMark_ = mark + 1;
-  extendDirect(nextMark_);
-}
-
-RenderResult TourRender::finished(RenderResult result) const {
-  result.sampleUnit = "mutations";
-  if (split()) direct_.addTo(result);
-  const Image empty(scene_.film.width, scene_.film.height);
-  if (result.image.pixels.empty()) result.image = empty;
-  const PixelStatistics& asked = request_.pixelStatistics;
-  if (asked.variance && result.variance.pixels.empty()) result.variance = empty;
-  if (asked.counts) result.counts.resize(empty.pixels.size());
-  finish(scene_, result);
-  const long long inTours =
-      result.statistics.is_object() ? result.statistics.value("not finite", 0LL) : 0;
-  result.statistics["not finite"] = inTours + bootstrapNotFinite_ + direct_.notFinite();
-  result.statistics["not finite by source"] = {{"tours", inTours},
-                                               {"bootstrap", bootstrapNotFinite_},
-                                               {"direct lighting", direct_.notFinite()}};
-  result.statistics["mean luminance"] = result.meanLuminance;
-  result.statistics["mean luminance standard error"] = result.meanLuminanceError;
-  result.wallSeconds = clock_.wallSeconds();
-  result.cpuSeconds = clock_.cpuSeconds();
-  return result;
-}
-
-RenderResult TourRender::directAlone() {
-  for (std::size_t mark = 0; mark < request_.marks.size() && !direct_.interrupted(); ++mark)
-    atMark(mark);
-  lookLast();
-  RenderResult none;
-  none.interrupted = stopped();
-  return finished(none);
+  if (split()) {
+    const TwoEstimates picture = tours_->halves();
+    direct_.measure(picture, direct_.weights(picture.mean(), tours_->cell()));
+    balanceDirect(tours_->mutationsPerPixel(), 1, TourEnsemble::kGrowth);
+  }
 }
 
 RoundsPlan TourRender::plan() {
@@ -215,7 +96,9 @@ RoundsPlan TourRender::plan() {
     plan.rounds = std::llround(std::ceil(rounds(static_cast<double>(mutationsPerPixel_))));
     for (const double mark : request_.marks) plan.marks.push_back(rounds(mark));
   }
-  plan.atMark = [this](std::size_t mark, const RoundsResult&) { atMark(mark); };
+  plan.atMark = [this](std::size_t mark, const RoundsResult&) {
+    atMark(mark, [this] { return tours_->result(); });
+  };
   plan.endOfRound = [this] {
     tours_->endRound();
     ++rounds_;
@@ -237,8 +120,7 @@ RenderResult TourRender::withTours() {
     extendDirect(0);
   } else {
     stage_ = Stage::kTours;
-    toursBegan_ = clock_.wallSeconds();
-    directBefore_ = direct_.seconds();
+    startMutations();
   }
   const RoundsPlan rounds = plan();
   RoundsResult done;
@@ -273,10 +155,8 @@ RenderResult TourRender::run() {
 }
 
 void TourRender::archiveRender(Archive& archive) {
-  double wall = clock_.wallSeconds(), cpu = clock_.cpuSeconds();
-  archive(wall, cpu, stage_, meanLuminance_, bootstrapNotFinite_, rounds_, toursBegan_,
-          directBefore_, direct_);
-  if (archive.reading()) clock_.advance(wall, cpu);
+  archiveDirect(archive);
+  archive(stage_, meanLuminance_, bootstrapNotFinite_, rounds_);
 }
 
 void TourRender::save(Archive& archive) {
