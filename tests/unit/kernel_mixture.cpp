@@ -107,14 +107,16 @@ TEST(KernelMixture, DividesByHowLongChainsStay) {
   Mixture m(1, 4);
   m.kernels.meanTarget = 2;
   m.kernels.baseSamples = 0.3;
-  const double before = m.kernels.division().ofState(2);
-  EXPECT_EQ(before, 2 + m.kernels.division().level);
+  // Before anything is known samples have nearly all.
+  EXPECT_DOUBLE_EQ(m.kernels.division().ofState(2),
+                   2 + 64 * (m.kernels.largeProbability + 0.3) * 2);
   ChainStatistics statistics(m.kernels.kinds(), 2);
   statistics.octaves[kIsotropic][octaveRow(8)] = {600, 10};
   statistics.octaves[kHamiltonian][octaveRow(8)] = {400, 10};
   statistics.departures[octaveRow(8)] = 9;
   m.kernels.learn(statistics);
-  EXPECT_EQ(m.kernels.division().ofState(2), before);
+  EXPECT_DOUBLE_EQ(m.kernels.division().ofState(2),
+                   2 + (m.kernels.largeProbability + 2 * 0.3) * 2);
   m.kernels.dividesByHolding = true;
   m.kernels.learn(statistics);
   const Division division = m.kernels.division();
