@@ -51,7 +51,9 @@ class Render(_h2mc.Test):
                 self.assertEqual(attributes["threads"], 2)
                 self.assertGreater(attributes["wallSeconds"], 0)
                 self.assertGreater(attributes["cpuSeconds"], 0)
-                self.assertGreaterEqual(attributes["samples"], 8 * 20 * 16)
+                # How long tours are is left to chance.
+                least = 0.7 if integrator in ("erpt", "restore") else 1
+                self.assertGreaterEqual(attributes["samples"], least * 8 * 20 * 16)
                 self.assertGreater(attributes["meanLuminance"], 0)
                 self.assertGreater(attributes["meanLuminanceError"], 0)
                 self.assertRegex(attributes["programVersion"], r"^\d+\.\d+\.\d+")

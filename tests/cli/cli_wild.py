@@ -134,7 +134,9 @@ class Wild(WildTest):
         values = {}
         for name in _h2mc.INTEGRATORS:
             budget = ("--samples-per-pixel", 128) if name in ("path", "bdpt") else ("-m", 96)
-            integrator = name if name in ("path", "bdpt") else name + ":bootstrapSamples=30000"
+            integrator = name
+            if name not in ("path", "bdpt", "erpt", "restore"):
+                integrator += ":bootstrapSamples=30000"
             values[name] = self.render(file, "-i", integrator, "--seed", 3, *budget)[0][0]
         for name, value in values.items():
             self.assertAlmostEqual(value, 0.03057, delta=0.0005, msg=values)

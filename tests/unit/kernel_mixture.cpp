@@ -115,8 +115,7 @@ TEST(KernelMixture, DividesByHowLongChainsStay) {
   statistics.octaves[kHamiltonian][octaveRow(8)] = {400, 10};
   statistics.departures[octaveRow(8)] = 9;
   m.kernels.learn(statistics);
-  EXPECT_DOUBLE_EQ(m.kernels.division().ofState(2),
-                   2 + (m.kernels.largeProbability + 2 * 0.3) * 2);
+  EXPECT_DOUBLE_EQ(m.kernels.division().ofState(2), 2 + (m.kernels.largeProbability + 2 * 0.3) * 2);
   m.kernels.dividesByHolding = true;
   m.kernels.learn(statistics);
   const Division division = m.kernels.division();

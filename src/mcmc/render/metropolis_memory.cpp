@@ -54,15 +54,18 @@ void requireMetropolisMemory(const Scene& scene, const OptionSet& options,
       (direct ? kImage : 0) + (marks ? kInEpoch + (direct ? 24 : kImage) : kBetweenEpochs);
   if (asked.variance) pixel += kVariance + (direct ? kDirectVariance : 0);
   if (asked.counts) pixel += kCounts;
-  double chains = options.integer("chains");
+  const double chains = options.integer("chains");
+  double replicas = 0;
   if (options.has("replicas"))
-    chains += std::min(chains, double(kMostGroups)) * options.integer("replicas");
+    replicas = std::min(chains, double(kMostGroups)) * options.integer("replicas");
   const double samples = static_cast<double>(bootstrapSamples);
   const double chain = bytesAChain(options, maxLength) + (asked.counts ? kSplats : 0);
   requireMemory(
       {filmMemory(scene.film, pixel),
        {chains * chain, fmt::format("{:.0f} chains of paths of up to {} edges", chains, maxLength),
         "expected fewer by the option \"chains\""},
+       {replicas * chain, fmt::format("{:.0f} replicas of them", replicas),
+        "expected fewer by the option \"replicas\""},
        {samples * sizeof(double), fmt::format("{:.0f} bootstrap samples", samples),
         "expected fewer by the option \"bootstrapSamples\""}});
 }
