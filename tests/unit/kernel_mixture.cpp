@@ -107,7 +107,8 @@ TEST(KernelMixture, DividesByHowLongChainsStay) {
   Mixture m(1, 4);
   m.kernels.meanTarget = 2;
   m.kernels.baseSamples = 0.3;
-  // Before anything is known samples have nearly all.
+  // Before anything is known samples of a brief render have nearly all.
+  m.kernels.brief = true;
   EXPECT_DOUBLE_EQ(m.kernels.division().ofState(2),
                    2 + 64 * (m.kernels.largeProbability + 0.3) * 2);
   ChainStatistics statistics(m.kernels.kinds(), 2);

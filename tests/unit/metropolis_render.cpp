@@ -52,8 +52,8 @@ RenderResult render(const Scene& scene, const std::string& wish, long long perPi
 // Where a source has no samples it has no noise.
 TEST(Noise, OfEverySourceIsANumber) {
   const Scene scene = lampAndWall();
-  for (const char* wish :
-       {"mlt-1997", "mmlt-2014", "pssmlt-2002", "h2mc", "h2mc:baseSamples=0", "lmc:baseSamples=2"}) {
+  for (const char* wish : {"mlt-1997", "mmlt-2014", "pssmlt-2002", "h2mc", "h2mc:baseSamples=0",
+                           "lmc:baseSamples=2"}) {
     const RenderResult result = render(scene, wish, 8);
     for (const auto& [source, noise] : result.statistics.at("noise").items()) {
       EXPECT_TRUE(noise.is_number() && std::isfinite(noise.get<double>()))

@@ -25,11 +25,10 @@ Division KernelMixture::division() const {
   if (level) return {*level};
   const double mean = meanTarget.value_or(0);
   if (!held_.empty()) return {(largeProbability + baseSamples) * mean, held_.data(), mean};
-  if (!(baseSamples > 0)) return {largeProbability * mean};
-  // Before anything is learned chains have not forgotten where they began: what is bright is left to the samples. Later,
-  // what is found on most scenes.
+  // Before anything is learned chains of a brief render have not forgotten where they began: what is bright is left to
+  // the samples. Otherwise, beside base samples, what is found on most scenes.
   constexpr double kHeldAtFirst = 64, kHeld = 2;
-  if (learned_.empty()) return {kHeldAtFirst * (largeProbability + baseSamples) * mean};
+  if (brief && learned_.empty()) return {kHeldAtFirst * (largeProbability + baseSamples) * mean};
   return {(largeProbability + kHeld * baseSamples) * mean};
 }
 
@@ -120,7 +119,7 @@ void KernelMixture::learn(const ChainStatistics& statistics) {
 }
 
 void KernelMixture::archive(Archive& archive) {
-  archive(meanTarget, baseSamples, learned_, held_);
+  archive(meanTarget, baseSamples, brief, learned_, held_);
   for (int kind = 0; kind < kinds(); ++kind) mutation(at(kind)).archive(archive);
 }
 

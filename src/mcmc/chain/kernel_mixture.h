@@ -34,6 +34,8 @@ struct KernelMixture {
   std::optional<double> meanTarget;
   // Bidirectional samples beside the chains, for each mutation; only beside large steps that cover all techniques.
   double baseSamples = 0;
+  // Whether there is time for hardly more than base samples.
+  bool brief = false;
   // Whether the division between states and samples knows for how long chains stay where they are.
   bool dividesByHolding = false;
   // Of the division, where it is not that of large steps and base samples.

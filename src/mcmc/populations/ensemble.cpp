@@ -12,14 +12,14 @@ namespace h2mc {
 namespace {
 
 constexpr std::uint64_t kChainStream = 0x636861696e, kResampleStream = 0x7265736d;
-// The first epoch's mutations a pixel; less where it is to tell how many base samples there should be.
-constexpr double kFirstEpoch = 4, kFirstEpochBeside = 0.25;
+// The first epoch's mutations a pixel; less in a brief render, which is to know soon how many base samples it should have.
+constexpr double kFirstEpoch = 4, kFirstEpochIfBrief = 0.25;
 // So many mutations make a cell of the importance map.
 constexpr double kMutationsPerCell = 256;
 // Base samples for each mutation before their noise is known, and what one of them costs, in mutations: 1 to 1.4 on the
 // project's scenes. No clock is asked, so that the picture does not depend on it.
-constexpr double kFirstBase = 1, kBaseCost = 1.2;
-// As many, where there is time for no more than so many samples a pixel: chains get nowhere in it.
+constexpr double kFirstBase = 0.3, kBaseCost = 1.2;
+// As many in a brief render: where there is time for fewer than so many samples a pixel, in which chains get nowhere.
 constexpr double kFirstBaseIfBrief = 4, kBrief = 16;
 
 double baseSamplesAtFirst(const OptionSet& options, double affordable) {
@@ -59,6 +59,7 @@ ChainEnsemble::ChainEnsemble(const Scene& scene, const MetropolisMethod& method,
     KernelMixture kernels = makeKernels(method, target_, techniques_, options, minLength);
     kernels.meanTarget = bootstrap.luminance().mean();
     kernels.baseSamples = baseSamplesAtFirst(options, affordable);
+    kernels.brief = learnsBase_ && affordable < kBrief;
     kernels.dividesByHolding = kernels.baseSamples > 0 && options.boolean("divisionByHolding");
     kernels.width = static_cast<float>(scene.film.width);
     kernels.height = static_cast<float>(scene.film.height);
@@ -161,7 +162,7 @@ int ChainEnsemble::cell() const {
 
 bool ChainEnsemble::epochIsOver() const {
   return mutationsPerPixel() >=
-         (learnsBase_ ? kFirstEpochBeside : kFirstEpoch) * std::pow(kGrowth, epoch_);
+         (groups_[0].kernels.brief ? kFirstEpochIfBrief : kFirstEpoch) * std::pow(kGrowth, epoch_);
 }
 
 ChainStatistics ChainEnsemble::statistics() const {
