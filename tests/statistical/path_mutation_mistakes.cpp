@@ -124,8 +124,8 @@ ExactnessReport reportOn(const World& world, const Make& make, int samples) {
   return reportOn(world.target, kernels, plan);
 }
 
-// Where almost nothing counts as rough, so that lobes of all widths are traced through, and where all does; every kernel
-// on every scene in one of the two.
+// Where almost nothing counts as rough, so that lobes of all widths are traced through, and where all does; every
+// kernel on every scene in one of the two.
 TEST(PathMutation, KeepsTheTargetWhateverCountsAsRoughSlow) {
   bool all = false;
   for (const ExactnessScene& scene : exactnessScenes()) {

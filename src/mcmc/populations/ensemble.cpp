@@ -12,7 +12,8 @@ namespace h2mc {
 namespace {
 
 constexpr std::uint64_t kChainStream = 0x636861696e, kResampleStream = 0x7265736d;
-// The first epoch's mutations a pixel; less in a brief render, which is to know soon how many base samples it should have.
+// The first epoch's mutations a pixel; less in a brief render, which is to know soon how many base samples it should
+// have.
 constexpr double kFirstEpoch = 4, kFirstEpochIfBrief = 0.25;
 // So many mutations make a cell of the importance map.
 constexpr double kMutationsPerCell = 256;

@@ -56,8 +56,8 @@ class SplitRender : public RenderInProgress {
     std::string first;
     void archive(Archive& archive) { archive(count, first); }
   };
-  // The picture of the mutations, or nothing, as the render's: with direct light, in the scene's units, with what was not
-  // finite of `source` ("chains"), of the bootstrap and of direct light.
+  // The picture of the mutations, or nothing, as the render's: with direct light, in the scene's units, with what was
+  // not finite of `source` ("chains"), of the bootstrap and of direct light.
   RenderResult finished(RenderResult result, const char* source, const NotFinite& bootstrap) const;
   // As it is with what there is now.
   virtual RenderResult finished(RenderResult result) const = 0;
