@@ -3,6 +3,7 @@
 // splat has the image as its mean, and its errors are what they are said to be. Mistakes that are planted are seen.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <memory>
 
 #include "exactness_world.h"
