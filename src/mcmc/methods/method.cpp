@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "mcmc/mutations/mutations.h"
-#include "render/integrator/common_options.h"
+#include "mcmc/render/split_parameters.h"
 
 namespace h2mc {
 
@@ -12,11 +12,8 @@ std::span<const Parameter> sharedParameters() {
   static constexpr Parameter kParameters[] = {
       kMaxDepthParameter,
       kMinDepthParameter,
-      {"mutationsPerPixel", ParameterType::kInteger, "128",
-       "mutations for each pixel, if no budget is given"},
-      {"directSamples", ParameterType::kInteger, "-1",
-       "samples a pixel of path tracing for paths of up to two edges, which the chains then leave "
-       "out; 0: the chains do all, -1: what makes the whole picture least noisy"},
+      kMutationsPerPixelParameter,
+      kDirectSamplesParameter,
       {"chains", ParameterType::kInteger, "512", "independent Markov chains"},
       {"bootstrapSamples", ParameterType::kInteger, "0",
        "bidirectional samples that place the chains and give the first estimate of the brightness; "
@@ -40,10 +37,9 @@ std::span<const Parameter> sharedParameters() {
 }
 
 void checkOptions(const MetropolisMethod& method, const OptionSet& options) {
-  for (const char* name : {"minDepth", "mutationsPerPixel", "chains"})
-    requireRange(options, name, 1, kNoLimit);
+  checkSplitOptions(options);
+  requireRange(options, "chains", 1, kNoLimit);
   requireRange(options, "bootstrapSamples", 0, kNoLimit);
-  requireRange(options, "directSamples", -1, kNoLimit);
   requireRange(options, "baseSamples", -1, 1000);
   if (options.string("largeStep") != "bidirectional" && options.number("baseSamples") > 0)
     throw OptionError("expected baseSamples=0 with largeStep=" + options.string("largeStep") +

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mcmc/populations/epochs.h"
 #include "render/core/archive.h"
 #include "render/core/index.h"
 #include "render/integrator/parallel_rounds.h"
@@ -12,11 +13,8 @@ namespace h2mc {
 namespace {
 
 constexpr std::uint64_t kChainStream = 0x636861696e, kResampleStream = 0x7265736d;
-// The first epoch's mutations a pixel; less in a brief render, which is to know soon how many base samples it should
-// have.
-constexpr double kFirstEpoch = 4, kFirstEpochIfBrief = 0.25;
-// So many mutations make a cell of the importance map.
-constexpr double kMutationsPerCell = 256;
+// The first epoch's mutations a pixel in a brief render, which is to know soon how many base samples it should have.
+constexpr double kFirstEpochIfBrief = 0.25;
 // Base samples for each mutation before their noise is known, and what one of them costs, in mutations: 1 to 1.4 on the
 // project's scenes. No clock is asked, so that the picture does not depend on it.
 constexpr double kFirstBase = 0.3, kBaseCost = 1.2;
@@ -156,14 +154,11 @@ double ChainEnsemble::mutationsPerPixel() const {
   return perPixel(static_cast<double>(mutations));
 }
 
-int ChainEnsemble::cell() const {
-  return std::max(
-      1, static_cast<int>(std::lround(std::sqrt(kMutationsPerCell / mutationsPerPixel()))));
-}
+int ChainEnsemble::cell() const { return knownCell(mutationsPerPixel()); }
 
 bool ChainEnsemble::epochIsOver() const {
-  return mutationsPerPixel() >=
-         (groups_[0].kernels.brief ? kFirstEpochIfBrief : kFirstEpoch) * std::pow(kGrowth, epoch_);
+  const double first = groups_[0].kernels.brief ? kFirstEpochIfBrief : kFirstEpoch;
+  return mutationsPerPixel() >= epochEnd(epoch_, first);
 }
 
 ChainStatistics ChainEnsemble::statistics() const {

@@ -40,8 +40,6 @@ class ChainEnsemble {
   bool epochIsOver() const;
   void endEpoch() { image_.end(); }
   void nextEpoch(const Image* direct);
-  // How many times as many mutations as now the next epoch's end will have seen.
-  static constexpr double kGrowth = 4;
 
   // The present epoch's picture by either half of the chains, in the measured rows and in the scene's units.
   TwoEstimates halves() const { return image_.halves(luminance().mean); }

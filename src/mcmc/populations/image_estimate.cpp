@@ -3,6 +3,7 @@
 
 #include <cassert>
 
+#include "mcmc/populations/landed.h"
 #include "render/core/archive.h"
 #include "render/core/index.h"
 #include "render/integrator/parallel_rounds.h"
@@ -13,12 +14,6 @@ namespace {
 // Mutations a pixel that are added up in floats before their sum is added to what there is: rounding is then
 // below 1e-4 of a pixel even if all splats are the same, and below 1e-6 if they are not.
 constexpr double kStretch = 1024;
-
-// Counts are not spread over pixels.
-FilmSettings unfiltered(FilmSettings settings) {
-  settings.filter = Filter();
-  return settings;
-}
 
 }  // namespace
 
@@ -209,12 +204,7 @@ Image ImageEstimate::variance(double luminance, double luminanceError) const {
 
 std::vector<float> ImageEstimate::counts() const {
   assert(landed_);
-  std::vector<float> counts(states_.size());
-  forEachRow([&](int y, std::size_t i) {
-    for (int x = 0; x < settings_.width; ++x, ++i)
-      counts[i] = landed_->pixel(x, y, 1 / pixels()).x;  // by the film's area
-  });
-  return counts;
+  return landedCounts(*landed_, threads_);
 }
 
 TwoEstimates ImageEstimate::stateHalves(double luminance) const {

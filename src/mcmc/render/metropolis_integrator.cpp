@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mcmc/render/metropolis_integrator.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -66,7 +64,7 @@ class MetropolisRender final : public SplitRender {
   long long bootstrapSamples(double seconds) const;
   void makeBootstrap();
   void balance(const ChainEnsemble& chains) {
-    balanceDirect(chains.mutationsPerPixel(), chains.mutationCost(), ChainEnsemble::kGrowth);
+    balanceDirect(chains.mutationsPerPixel(), chains.mutationCost());
   }
   void endEpoch(ChainEnsemble& chains);
   void beginEpoch(ChainEnsemble& chains);
@@ -220,10 +218,7 @@ RenderResult MetropolisRender::run() {
   if (minLength_ > maxLength_) return directAlone();
   makeBootstrap();
   if (bootstrap_->luminance().mean() > 0) return withChains();
-  if (!stopped())
-    spdlog::warn("no light arrives through paths of {} to {} edges: nothing to sample there",
-                 minLength_, maxLength_);
-  return directAlone();
+  return withoutLight();
 }
 
 // What there is, whatever stage it is at.

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "mcmc/render/split_render.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "mcmc/populations/epochs.h"
 
 namespace h2mc {
 
@@ -53,7 +57,7 @@ void SplitRender::startMutations() {
   directBefore_ = direct_.seconds();
 }
 
-void SplitRender::balanceDirect(double mutations, double mutationCost, double growth) {
+void SplitRender::balanceDirect(double mutations, double mutationCost) {
   DirectLighting::Standing now;
   now.mutations = mutations;
   now.mutationCost = mutationCost;
@@ -65,7 +69,7 @@ void SplitRender::balanceDirect(double mutations, double mutationCost, double gr
     now.endSeconds = request_.budget.seconds;
   else
     now.endMutations = static_cast<double>(mutationsPerPixel_);
-  now.growth = growth;
+  now.growth = kEpochGrowth;
   direct_.balance(now);
 }
 
@@ -87,6 +91,13 @@ RenderResult SplitRender::directAlone() {
   RenderResult none;
   none.interrupted = stopped();
   return finished(none);
+}
+
+RenderResult SplitRender::withoutLight() {
+  if (!stopped())
+    spdlog::warn("no light arrives through paths of {} to {} edges: nothing to sample there",
+                 minLength_, maxLength_);
+  return directAlone();
 }
 
 RenderResult SplitRender::finished(RenderResult result, const char* source,

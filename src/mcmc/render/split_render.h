@@ -40,8 +40,8 @@ class SplitRender : public RenderInProgress {
   // To be called when mutations begin, before balanceDirect(); not in a render that goes on.
   void startMutations();
   // Brings direct lighting up to what makes the picture's variance least, now that there are so many mutations a pixel,
-  // one of them costs so much (DirectLighting::Standing) and there will be another call before `growth` times as many.
-  void balanceDirect(double mutations, double mutationCost, double growth);
+  // one of them costs so much (DirectLighting::Standing), and there will be another call at the end of the epoch.
+  void balanceDirect(double mutations, double mutationCost);
 
   // Hands out a result at a mark, without counting the time that takes.
   void atMark(std::size_t mark, const std::function<RenderResult()>& result);
@@ -49,6 +49,8 @@ class SplitRender : public RenderInProgress {
   void lookLast();
   // Where there is nothing for mutations to do.
   RenderResult directAlone();
+  // Where they would find no light: the same, and says so.
+  RenderResult withoutLight();
 
   // Contributions that were not finite and are left out, and what replays one of them.
   struct NotFinite {

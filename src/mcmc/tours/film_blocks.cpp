@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "mcmc/populations/landed.h"
 #include "render/core/archive.h"
 
 namespace h2mc {
@@ -12,8 +13,7 @@ FilmSettings blockFilm() {
   FilmSettings settings;
   settings.width = BlockMoments::kColumns;
   settings.height = BlockMoments::kRows;
-  settings.filter = Filter();
-  return settings;
+  return unfiltered(settings);
 }
 
 }  // namespace

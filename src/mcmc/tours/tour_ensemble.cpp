@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "mcmc/tours/tour_ensemble.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "mcmc/populations/epochs.h"
 #include "render/core/archive.h"
 
 namespace h2mc {
 namespace {
-
-// The first epoch's mutations a pixel, and so many make a cell: as for the methods of chains.
-constexpr double kFirstEpoch = 4, kMutationsPerCell = 256;
 
 double limitOf(const OptionSet& options, double meanLuminance) {
   const double times = options.number("targetLimit");
@@ -70,14 +66,7 @@ double TourEnsemble::mutationsPerPixel() const {
          (static_cast<double>(scene_.film.width) * scene_.film.height);
 }
 
-int TourEnsemble::cell() const {
-  return std::max(1, static_cast<int>(std::lround(
-                         std::sqrt(kMutationsPerCell / std::max(mutationsPerPixel(), 1e-6)))));
-}
-
-bool TourEnsemble::epochIsOver() const {
-  return mutationsPerPixel() >= kFirstEpoch * std::pow(kGrowth, epoch_);
-}
+bool TourEnsemble::epochIsOver() const { return mutationsPerPixel() >= epochEnd(epoch_); }
 
 void TourEnsemble::nextEpoch() {
   ++epoch_;

@@ -28,12 +28,8 @@ class TourEnsemble {
 
   bool epochIsOver() const;
   void nextEpoch();
-  // How many times as many mutations as now the next epoch's end will have seen.
-  static constexpr double kGrowth = 4;
 
   double mutationsPerPixel() const;
-  // Edge of the square cells, in pixels, for which the picture so far is known well enough.
-  int cell() const;
   // The picture by either half of the batches, in the measured rows and in the scene's units.
   TwoEstimates halves() const;
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "mcmc/tours/tour_integrator.h"
 
-#include <spdlog/spdlog.h>
-
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "mcmc/populations/bootstrap.h"
+#include "mcmc/populations/epochs.h"
 #include "mcmc/render/split_render.h"
 #include "mcmc/tours/tour_ensemble.h"
 #include "render/core/archive.h"
@@ -75,8 +74,9 @@ void TourRender::endEpoch() {
   tours_->nextEpoch();
   if (split()) {
     const TwoEstimates picture = tours_->halves();
-    direct_.measure(picture, direct_.weights(picture.mean(), tours_->cell()));
-    balanceDirect(tours_->mutationsPerPixel(), 1, TourEnsemble::kGrowth);
+    direct_.measure(picture,
+                    direct_.weights(picture.mean(), knownCell(tours_->mutationsPerPixel())));
+    balanceDirect(tours_->mutationsPerPixel(), 1);
   }
 }
 
@@ -148,10 +148,7 @@ RenderResult TourRender::run() {
   if (minLength_ > maxLength_) return directAlone();
   if (stage_ == Stage::kDirect) meanLuminance_ = meanLuminance();
   if (meanLuminance_ > 0) return withTours();
-  if (!stopped())
-    spdlog::warn("no light arrives through paths of {} to {} edges: nothing to sample there",
-                 minLength_, maxLength_);
-  return directAlone();
+  return withoutLight();
 }
 
 void TourRender::archiveRender(Archive& archive) {

@@ -7,9 +7,9 @@
 #include "mcmc/mutations/bidirectional_large_step.h"
 #include "mcmc/mutations/mutations.h"
 #include "mcmc/mutations/technique_distribution.h"
+#include "mcmc/render/split_parameters.h"
 #include "mcmc/tours/erpt.h"
 #include "mcmc/tours/restore.h"
-#include "render/integrator/common_options.h"
 
 namespace h2mc {
 namespace {
@@ -32,11 +32,8 @@ constexpr std::array<Share, 10> kShares = {{{"lensShare", "lens", {}},
 constexpr Parameter kParameters[] = {
     kMaxDepthParameter,
     kMinDepthParameter,
-    {"mutationsPerPixel", ParameterType::kInteger, "128",
-     "mutations for each pixel, if no budget is given"},
-    {"directSamples", ParameterType::kInteger, "-1",
-     "samples a pixel of path tracing for paths of up to two edges, which the chains then leave "
-     "out; 0: the chains do all, -1: what makes the whole picture least noisy"},
+    kMutationsPerPixelParameter,
+    kDirectSamplesParameter,
     {"luminanceSamples", ParameterType::kInteger, "15000",
      "bidirectional samples by which the brightness is first guessed: it sets how many tours there "
      "are, not how bright the picture is"},
@@ -82,9 +79,8 @@ std::span<const TourMethod> tourMethods() {
 }
 
 void checkOptions(const TourMethod& method, const OptionSet& options) {
-  for (const char* name : {"minDepth", "mutationsPerPixel", "luminanceSamples"})
-    requireRange(options, name, 1, kNoLimit);
-  requireRange(options, "directSamples", -1, kNoLimit);
+  checkSplitOptions(options);
+  requireRange(options, "luminanceSamples", 1, kNoLimit);
   requireRange(options, "targetLimit", 0, kNoLimit);
   bool any = false;
   for (const Share& share : kShares) {

@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "mcmc/tours/tour_picture.h"
 
+#include "mcmc/populations/landed.h"
 #include "render/core/archive.h"
 #include "render/integrator/parallel_rounds.h"
 
 namespace h2mc {
-namespace {
-
-FilmSettings unfiltered(FilmSettings settings) {
-  settings.filter = Filter();
-  return settings;
-}
-
-}  // namespace
 
 TourPicture::TourPicture(const FilmSettings& settings, int threads, double weight,
                          PixelStatistics statistics)
@@ -79,13 +72,6 @@ Image TourPicture::variance() const {
   return result;
 }
 
-std::vector<float> TourPicture::counts() const {
-  std::vector<float> counts;
-  const double pixels = static_cast<double>(film_.width()) * film_.height();
-  for (int y = 0; y < film_.height(); ++y)
-    for (int x = 0; x < film_.width(); ++x)
-      counts.push_back(landed_->pixel(x, y, 1 / pixels).x);  // by the film's area
-  return counts;
-}
+std::vector<float> TourPicture::counts() const { return landedCounts(*landed_, threads_); }
 
 }  // namespace h2mc
