@@ -5,7 +5,8 @@
 # tests of the AD type as optimised by clang; formatting, licences, clang-tidy. The arguments go to the release run of
 # ctest, as in scripts/test.sh --quick -R Wavelet. Each step runs whatever became of those before it; the exit code is 0
 # if all passed. H2MC_TIDY=all has clang-tidy look at all files, however long it takes; H2MC_TSAN=yes adds the tests of
-# threads under ThreadSanitizer, H2MC_LEAKS=yes leak checks.
+# threads under ThreadSanitizer, H2MC_LEAKS=yes leak checks; H2MC_THOROUGH=yes makes the 200 renders by which error bars
+# are tested.
 set -uo pipefail
 root=$(cd -P -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." >/dev/null && pwd)
 source "$root/scripts/lib.sh"
