@@ -50,13 +50,16 @@ std::optional<HeaderSize> sizeOfWebp(const std::string& head) {
 // Of the first frame header among the markers.
 std::optional<HeaderSize> sizeOfJpeg(const InputFile& file) {
   constexpr int kMostMarkers = 1000000;
+  constexpr std::uint64_t kBlock = 256;
   std::uint64_t offset = 2;
   for (int i = 0; i < kMostMarkers; ++i) {
     const std::string head = file.bytes(offset, 9);
     if (head.size() < 9) return std::nullopt;
     const std::uint32_t first = bigEndian(head, 0, 1), marker = bigEndian(head, 1, 1);
-    if (first != 0xFF || marker == 0xFF) {  // padding
-      ++offset;
+    if (first != 0xFF || marker == 0xFF) {  // padding: to the 0xFF before the next other byte, or to the next 0xFF
+      const std::string block = file.bytes(offset, kBlock);
+      const std::size_t next = first == 0xFF ? block.find_first_not_of('\xFF') : block.find('\xFF');
+      offset += std::min(next, block.size()) - (first == 0xFF);
       continue;
     }
     const bool isTable = marker == 0xC4 || marker == 0xC8 || marker == 0xCC;
