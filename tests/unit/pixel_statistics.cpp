@@ -127,14 +127,22 @@ class OfRenders : public ::testing::TestWithParam<const char*> {
 // Expected: 1. The spread of 60 renders of 432 pixels is known to some percent, as chains' estimates have long tails.
 TEST_P(OfRenders, VarianceIsTheSpreadOfManyRendersSlow) {
   const Scene scene = test::readTestScene(H2MC_SOURCE_DIR "/scenes/cornell/cornell.xml", 24, 18);
-  Spread spread;
-  for (int run = 0; run < 60; ++run) {
-    const RenderResult result =
-        render(scene, request(static_cast<std::uint64_t>(run) + 1, 40), "64", "-1");
-    spread.add(result.image, result.variance);
-  }
-  std::printf("%s: estimated over shown variance %.3f\n", GetParam(), spread.ratio());
-  EXPECT_NEAR(spread.ratio(), 1, 0.15);
+  const auto ratio = [&](long long mutations, const char* baseSamples) {
+    Spread spread;
+    for (int run = 0; run < 60; ++run) {
+      const RenderResult result =
+          render(scene, request(static_cast<std::uint64_t>(run) + 1, mutations), "64", baseSamples);
+      spread.add(result.image, result.variance);
+    }
+    std::printf("%s: %lld mutations, base samples %s: estimated over shown variance %.3f\n",
+                GetParam(), mutations, baseSamples, spread.ratio());
+    return spread.ratio();
+  };
+  EXPECT_NEAR(ratio(40, "-1"), 1, 0.15);
+  if (std::string_view(GetParam()) != "h2mc") return;
+  // A picture mostly of samples, which are spread over the film more evenly than by chance.
+  EXPECT_NEAR(ratio(40, "4"), 1, 0.15);
+  EXPECT_NEAR(ratio(6, "4"), 1, 0.15);
 }
 
 // Nothing of the picture changes, counts are of all that was done, and threads make no difference.

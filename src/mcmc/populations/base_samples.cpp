@@ -13,21 +13,21 @@ constexpr std::uint64_t kSampleStream = 0x62617365, kShiftStream = 0x73686966;
 
 }  // namespace
 
-BaseSamples::BaseSamples(const PathTarget& target, int minLength, std::uint64_t seed, int group,
-                         int groups)
-    : target_(target),
-      minLength_(minLength),
-      seed_(seed),
-      group_(static_cast<std::uint64_t>(group)),
-      groups_(static_cast<std::uint64_t>(groups)),
-      sampler_(target.maxLength()) {
-  Random random(seed, kShiftStream, 0);
+BaseSamples::BaseSamples(const PathTarget& target, int minLength, std::uint64_t seed)
+    : target_(target), minLength_(minLength), seed_(seed), sampler_(target.maxLength()) {}
+
+void BaseSamples::begin(int sequence, int part, int parts) {
+  sequence_ = static_cast<std::uint64_t>(sequence);
+  part_ = static_cast<std::uint64_t>(part);
+  parts_ = static_cast<std::uint64_t>(parts);
+  made_ = 0;
+  Random random(seed_, kShiftStream, sequence_);
   shift_ = {random.uniform(), random.uniform()};
 }
 
 void BaseSamples::add(const Division& division, SampleFilm& film, NotFiniteCounts& notFinite) {
-  const std::uint64_t n = static_cast<std::uint64_t>(luminance_.count) * groups_ + group_;
-  Random random(seed_, kSampleStream, n);
+  const std::uint64_t n = static_cast<std::uint64_t>(made_) * parts_ + part_;
+  Random random(seed_, kSampleStream | sequence_ << 32, n);
   const UnitSquarePoint point = sobolPoint(n);
   double luminances = 0;
   const int wrong =
@@ -37,14 +37,14 @@ void BaseSamples::add(const Division& division, SampleFilm& film, NotFiniteCount
                         luminances += h2mc::luminance(c.contribution);
                       });
   luminance_.add(luminances);
-  ++sinceRestart_;
+  ++made_;
   notFinite.add(sampler_, wrong);
 }
 
 void BaseSamples::extendTo(double samplesAMutation, long long mutations, const Division& division,
                            SampleFilm& film, NotFiniteCounts& notFinite) {
   const long long wanted = std::llround(samplesAMutation * static_cast<double>(mutations));
-  while (sinceRestart_ < wanted) add(division, film, notFinite);
+  while (made_ < wanted) add(division, film, notFinite);
 }
 
 }  // namespace h2mc

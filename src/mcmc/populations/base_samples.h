@@ -8,22 +8,25 @@
 
 namespace h2mc {
 
-// Those that one group of chains makes. All groups' samples together are spread evenly over the film: number n goes
-// through the n-th point of a low-discrepancy sequence, shifted by the seed.
+// Those that one group of chains makes: numbers part, part + parts, part + 2 parts ... of a sequence, whose number n goes
+// through the n-th point of a low-discrepancy sequence on the film, shifted by the seed. Groups that share a sequence
+// spread their samples evenly over the film together; sequences are independent of each other. Each half of the chains
+// has its own, as the variance is told from what the halves differ by: of one sequence between them each half would get
+// every second stripe of the film.
 class BaseSamples {
  public:
-  // Group `group` of `groups`. Keeps a reference.
-  BaseSamples(const PathTarget& target, int minLength, std::uint64_t seed, int group, int groups);
+  // Keeps a reference.
+  BaseSamples(const PathTarget& target, int minLength, std::uint64_t seed);
 
-  // Adds samples until there are so many for these mutations, counted since the last call of restart().
+  // Goes over to these numbers of sequence `sequence`, 0 or above. To be called before the first sample, too.
+  void begin(int sequence, int part, int parts);
+
+  // Adds samples until there are so many for these mutations, counted from begin() on.
   void extendTo(double samplesAMutation, long long mutations, const Division& division,
                 SampleFilm& film, NotFiniteCounts& notFinite);
-  // Mutations are counted from 0 again.
-  void restart() { sinceRestart_ = 0; }
-
   // Their luminances, each an estimate of the film's mean.
   const Moments& luminance() const { return luminance_; }
-  void archive(Archive& archive) { archive(luminance_, sinceRestart_); }
+  void archive(Archive& archive) { archive(luminance_, made_); }
 
  private:
   void add(const Division& division, SampleFilm& film, NotFiniteCounts& notFinite);
@@ -31,11 +34,11 @@ class BaseSamples {
   const PathTarget& target_;
   int minLength_;
   std::uint64_t seed_;
-  std::uint64_t group_, groups_;
-  UnitSquarePoint shift_;
+  std::uint64_t sequence_ = 0, part_ = 0, parts_ = 1;
+  UnitSquarePoint shift_{};
   BidirectionalSampler sampler_;
   Moments luminance_;
-  long long sinceRestart_ = 0;
+  long long made_ = 0;  // since begin()
 };
 
 }  // namespace h2mc

@@ -67,8 +67,7 @@ ChainEnsemble::ChainEnsemble(const Scene& scene, const MetropolisMethod& method,
         Group{{}, std::move(kernels), ChainStatistics(kinds, maxLength), {}, {}});
     group.films.states.counting = statistics_.counts;
     if (group.kernels.baseSamples > 0)
-      group.base = std::make_unique<BaseSamples>(target_, minLength, seed_, static_cast<int>(g),
-                                                 static_cast<int>(groups));
+      group.base = std::make_unique<BaseSamples>(target_, minLength, seed_);
   }
   const Members members = population_->start(bootstrap, chains_.size(), maxLength, seed_, threads_);
   parallelFor(threads_, chains(), [&](int c) {
@@ -109,6 +108,8 @@ void ChainEnsemble::formGroups(std::size_t half) {
     const std::size_t parts = g < ofFirst ? ofFirst : groups - ofFirst;
     group.begin = first + size * k / parts;
     group.end = first + size * (k + 1) / parts;
+    if (group.base)
+      group.base->begin(2 * epoch_ + group.half, static_cast<int>(k), static_cast<int>(parts));
   }
 }
 
@@ -220,7 +221,6 @@ void ChainEnsemble::nextEpoch(const Image* direct) {
     Group& group = groups_[at(g)];
     group.kernels.meanTarget = mean;
     group.mutationsOfPast = group.statistics.mutations;
-    if (group.base) group.base->restart();
     group.kernels.learn(total);
     for (std::size_t c = group.begin; c < group.end; ++c) chains_[c]->restart(members.states[c]);
   });
@@ -244,6 +244,7 @@ Members ChainEnsemble::renewed(const ImportanceMap& next) const {
 
 void ChainEnsemble::archive(Archive& archive) {
   archive(importance_, half_, epoch_, image_, stateNoise_, sampleNoise_);
+  if (archive.reading()) formGroups(half_);
   for (const auto& chain : chains_) archive(*chain);
   for (Group& group : groups_) {
     archive(group.kernels, group.statistics, group.context.derivatives, group.context.notFinite,
@@ -251,7 +252,6 @@ void ChainEnsemble::archive(Archive& archive) {
     if (group.base) archive(*group.base);
     if (group.replicas) archive(*group.replicas);
   }
-  if (archive.reading()) formGroups(half_);
 }
 
 nlohmann::json ChainEnsemble::replicasJson() const {

@@ -84,7 +84,7 @@ class ChainEnsemble {
   // Puts replicas beside the groups' chains, where the options ask for them.
   void addReplicas(const MetropolisMethod& method, const OptionSet& options, int minLength);
   nlohmann::json replicasJson() const;
-  // Deals the chains out to the groups, each of which has chains of one half.
+  // Deals the chains and the epoch's base samples out to the groups, each of which has those of one half.
   void formGroups(std::size_t half);
   ChainStatistics statistics() const;
   double perPixel(double mutations) const;

@@ -17,6 +17,7 @@ namespace {
 // so many.
 constexpr double kLeastOfTime = 0.1;
 constexpr long long kMutationsASample = 4, kMostAtFirst = 256;
+constexpr long long kLeastAtFirst = 2;  // one for either half
 // Of a mutation, in samples, where the clock must not matter: 1.5 to 4 on the project's scenes.
 constexpr double kMutationCost = 2;
 
@@ -206,7 +207,7 @@ void DirectLighting::extendTo(double renderSeconds, long long mutationsPerPixel)
   if (wanted_ > 0)
     samples = wanted_;
   else if (renderSeconds <= 0)
-    samples = std::clamp(mutationsPerPixel / kMutationsASample, 1LL, kMostAtFirst);
+    samples = std::clamp(mutationsPerPixel / kMutationsASample, kLeastAtFirst, kMostAtFirst);
   if (samples > 0 && static_cast<double>(samples) <= perPixel(tally())) return;
   add(seconds, samples);
 }

@@ -56,7 +56,8 @@ std::optional<HeaderSize> sizeOfJpeg(const InputFile& file) {
     const std::string head = file.bytes(offset, 9);
     if (head.size() < 9) return std::nullopt;
     const std::uint32_t first = bigEndian(head, 0, 1), marker = bigEndian(head, 1, 1);
-    if (first != 0xFF || marker == 0xFF) {  // padding: to the 0xFF before the next other byte, or to the next 0xFF
+    if (first != 0xFF || marker == 0xFF) {
+      // Padding: to the 0xFF before the next other byte, or to the next 0xFF.
       const std::string block = file.bytes(offset, kBlock);
       const std::size_t next = first == 0xFF ? block.find_first_not_of('\xFF') : block.find('\xFF');
       offset += std::min(next, block.size()) - (first == 0xFF);
@@ -70,6 +71,34 @@ std::optional<HeaderSize> sizeOfJpeg(const InputFile& file) {
   }
   throw std::runtime_error("it has no picture among its first " + std::to_string(kMostMarkers) +
                            " markers");
+}
+
+// The data window among the attributes of the (first) header, each of which is its name, its type, how long it is, and
+// that many bytes.
+std::optional<HeaderSize> sizeOfExr(const InputFile& file) {
+  constexpr int kMostAttributes = 10000;
+  constexpr std::uint64_t kLongestName = 255;
+  std::uint64_t offset = 8;  // past magic number and version
+  for (int i = 0; i < kMostAttributes; ++i) {
+    const std::string head = file.bytes(offset, 2 * (kLongestName + 1) + 4 + 16);
+    const std::size_t type = head.find('\0') + 1;
+    if (type <= 1) return std::nullopt;  // the header's end, or no name
+    const std::size_t size = head.find('\0', type) + 1;
+    if (size == 0 || size + 4 > head.size()) return std::nullopt;
+    const std::size_t data = size + 4;
+    if (head.compare(0, type - 1, "dataWindow") == 0) {
+      if (data + 16 > head.size()) return std::nullopt;
+      const auto edge = [&](std::size_t k) {
+        return std::int64_t{static_cast<std::int32_t>(littleEndian(head, data + 4 * k, 4))};
+      };
+      const auto extent = [&](std::size_t k) {
+        return static_cast<std::uint32_t>(std::max<std::int64_t>(edge(k + 2) - edge(k) + 1, 0));
+      };
+      return HeaderSize{extent(0), extent(1)};
+    }
+    offset += data + littleEndian(head, size, 4);
+  }
+  return std::nullopt;
 }
 
 // The largest of the sizes ("ispe") in the file's descriptions ("meta"), which may stand anywhere among its boxes.
@@ -104,6 +133,7 @@ std::optional<HeaderSize> headerSize(const InputFile& file) {
   const auto has = [&](std::size_t offset, std::string_view magic) {
     return head.size() >= offset + magic.size() && head.compare(offset, magic.size(), magic) == 0;
   };
+  if (has(0, "\x76\x2f\x31\x01")) return sizeOfExr(file);
   if (has(0, "GIF8")) return HeaderSize{littleEndian(head, 6, 2), littleEndian(head, 8, 2)};
   if (has(0, "BM")) return sizeOfBmp(head);
   if (has(0, "RIFF") && has(8, "WEBP")) return sizeOfWebp(head);

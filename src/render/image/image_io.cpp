@@ -97,6 +97,11 @@ void checkHeader(const InputFile& file, double width, double height, int channel
   if (bytes > kAlways) requireMemory(bytes, size + ", which", "expected a smaller image");
 }
 
+// The same before any library opens the file.
+void checkHeaderSize(const InputFile& file) {
+  if (const auto size = headerSize(file)) checkHeader(file, size->width, size->height, 3, 0);
+}
+
 // Where red, green and blue are among the file's channels; alpha and further channels are not read.
 std::array<int, 3> colorChannels(const FilePicture& picture) {
   const auto& names = picture.channels;
@@ -274,7 +279,7 @@ Image readImage(const std::string& path, float gamma, const std::string& channel
   std::array<int, 3> rgb{};
   ChannelRange range;
   try {
-    if (const auto size = headerSize(file)) checkHeader(file, size->width, size->height, 3, 0);
+    checkHeaderSize(file);
     picture = imageFormats().read(path, [&](const FilePicture& header) {
       rgb = colorChannels(header);
       if (!channel.empty()) rgb.fill(channelNamed(header, channel));
@@ -300,8 +305,9 @@ Image readImage(const std::string& path, float gamma, const std::string& channel
 }
 
 ExrHeader readExrHeader(const std::string& path) {
-  opened(path);
+  const InputFile bytes = opened(path);
   try {
+    checkHeaderSize(bytes);
     const Imf::InputFile file(path.c_str());
     const Imf::Header& header = file.header();
     ExrHeader result;
