@@ -6,7 +6,7 @@
 
 namespace h2mc {
 
-// path, bdpt, the Metropolis methods, and those of tours.
+// path, bdpt, photon, the Metropolis methods, and those of tours.
 std::span<const IntegratorFactory> allIntegrators();
 // Their tables, for the scene reader.
 std::vector<IntegratorPlugin> integratorPlugins();

@@ -6,13 +6,10 @@
 #include "render/bsdf/lobe_kinds.h"
 
 namespace h2mc {
-namespace {
 
 int lobeCount(const Bsdf& bsdf) {
   return std::visit([](const auto& b) { return lobesOf(b); }, bsdf);
 }
-
-}  // namespace
 
 ChoiceInterval choiceInterval(std::span<const Bsdf> bsdfs, const Material& material,
                               const Vec2f& uv, const Vec3f& wi, float u0, float u1, LobeId lobe) {

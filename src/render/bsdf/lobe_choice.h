@@ -7,6 +7,9 @@
 
 namespace h2mc {
 
+// How many lobes the BSDF has.
+int lobeCount(const Bsdf& bsdf);
+
 // Where chooseLobe(..., choice) gives `lobe`; empty if nowhere. Lobes own one interval each.
 ChoiceInterval choiceInterval(std::span<const Bsdf> bsdfs, const Material& material,
                               const Vec2f& uv, const Vec3f& wi, float u0, float u1, LobeId lobe);

@@ -10,12 +10,13 @@
 #include "render/core/user_error.h"
 #include "render/integrator/bdpt_integrator.h"
 #include "render/integrator/path_integrator.h"
+#include "render/integrator/photon_integrator.h"
 #include "render/scene/scene.h"
 
 namespace h2mc {
 
 std::span<const IntegratorFactory> renderIntegrators() {
-  static const std::array list = {pathIntegrator(), bdptIntegrator()};
+  static const std::array list = {pathIntegrator(), bdptIntegrator(), photonIntegrator()};
   return list;
 }
 

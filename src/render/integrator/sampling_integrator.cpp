@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "render/core/archive.h"
 #include "render/core/index.h"
 #include "render/core/unit_interval.h"
 #include "render/integrator/common_options.h"
-#include "render/integrator/memory_need.h"
 
 namespace h2mc {
 namespace {
@@ -46,7 +46,8 @@ Offset inSquare(int index, int side, std::uint64_t shift) {
 }
 
 RenderResult resultOf(const Scene& scene, const SampledFilm& sampled, const RenderRequest& request,
-                      const RenderClock& clock, const RoundsResult& rounds) {
+                      const RenderClock& clock, const RoundsResult& rounds,
+                      const SharedByPass& shared) {
   const PixelStatistics& statistics = request.pixelStatistics;
   const int threads = request.threads;
   RenderResult result;
@@ -61,9 +62,11 @@ RenderResult resultOf(const Scene& scene, const SampledFilm& sampled, const Rend
   result.samples = total.samples;
   result.sampleUnit = "samples";
   result.meanLuminance = total.meanLuminance();
-  result.meanLuminanceError = total.meanLuminanceError();
+  result.meanLuminanceError = sampled.meanLuminanceError();
   finish(scene, result);
   result.statistics = sampleStatistics(scene, total, result.wallSeconds);
+  result.statistics["mean luminance standard error"] = result.meanLuminanceError;
+  if (shared.addStatistics) shared.addStatistics(result.statistics);
   return result;
 }
 
@@ -102,9 +105,23 @@ double SampleTally::meanLuminanceError() const {
   return std::sqrt(std::max(0.0, squares / n - mean * mean) / n);
 }
 
+void PassTally::end(const SampleTally& all, double samples) {
+  const double mean = (all.luminance - before) / samples;
+  luminance += mean;
+  squares += mean * mean;
+  ++passes;
+  before = all.luminance;
+}
+
+double PassTally::error() const {
+  if (passes < 2) return std::numeric_limits<double>::infinity();
+  const double n = static_cast<double>(passes), mean = luminance / n;
+  return std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1));
+}
+
 SampledFilm::SampledFilm(const Scene& scene, const MakeSampler& makeSampler, int step,
-                         PixelStatistics statistics)
-    : scene_(scene), side_(sideFor(scene.film)), film_(scene.film, step) {
+                         PixelStatistics statistics, const SharedByPass& shared)
+    : scene_(scene), side_(sideFor(scene.film)), film_(scene.film, step), beginPass_(shared.begin) {
   const long long pixels = static_cast<long long>(scene.film.width) * scene.film.height;
   if (statistics.variance) even_.emplace(scene.film);
   if (statistics.counts) counts_.resize(static_cast<std::size_t>(pixels));
@@ -116,6 +133,11 @@ SampleTally SampledFilm::tally(int half) const {
   SampleTally total;
   for (const Group& group : groups_) total.add(group.tally[half]);
   return total;
+}
+
+// With one pass, that of independent samples is the best guess.
+double SampledFilm::meanLuminanceError() const {
+  return passes_.passes < 2 ? tally(0).meanLuminanceError() : passes_.error();
 }
 
 // A group's share of a round: consecutive ones of the round's pixels.
@@ -152,6 +174,7 @@ void SampledFilm::archive(Archive& archive) {
   archive(film_);
   for (Group& group : groups_) archive(group.tally[0], group.tally[1], group.inEven);
   if (even_) archive(*even_);
+  if (beginPass_) archive(passes_);
   const std::size_t pixels = counts_.size();
   archive(counts_);
   if (counts_.size() != pixels) throw ArchiveError("it has another number of pixels");
@@ -193,7 +216,16 @@ RoundsResult SampledFilm::add(const RenderRequest& request, const RenderClock& c
     if (even_ && round / roundsAPass() % 2 == 0) addKeeping<double>(parts, request.threads, *even_);
     ++round;
     addInOrder<double>(parts, request.threads, film_);
+    if (beginPass_ && round % roundsAPass() == 0)
+      passes_.end(tally(0), static_cast<double>(film_.width()) * film_.height());
   };
+  if (beginPass_) {
+    beginPass_(round / roundsAPass());
+    // Of what runRounds calls this before, the pass of the first has begun already.
+    plan.betweenRounds = [&, first = round] {
+      if (round != first && round % roundsAPass() == 0) beginPass_(round / roundsAPass());
+    };
+  }
   return runRounds(request, clock, static_cast<int>(groups_.size()), plan,
                    [&](int group, long long round) {
                      sample(group, round, request.seed, half);
@@ -207,15 +239,15 @@ namespace {
 class SamplesInProgress final : public RenderInProgress {
  public:
   SamplesInProgress(const Scene& scene, SampledFilm& sampled, const RenderRequest& request,
-                    RenderClock& clock)
-      : scene_(scene), sampled_(sampled), request_(request), clock_(clock) {}
+                    RenderClock& clock, const SharedByPass& shared)
+      : scene_(scene), sampled_(sampled), request_(request), clock_(clock), shared_(shared) {}
 
   void setStanding(const RoundsResult& rounds, bool over) {
     rounds_ = rounds;
     over_ = over;
   }
   RenderResult result() const override {
-    return resultOf(scene_, sampled_, request_, clock_, rounds_);
+    return resultOf(scene_, sampled_, request_, clock_, rounds_, shared_);
   }
   bool isExact() const override { return true; }
   bool isOver() const override { return over_; }
@@ -237,6 +269,7 @@ class SamplesInProgress final : public RenderInProgress {
   SampledFilm& sampled_;
   const RenderRequest& request_;
   RenderClock& clock_;
+  const SharedByPass& shared_;
   RoundsResult rounds_;
   bool over_ = false;
 };
@@ -244,15 +277,17 @@ class SamplesInProgress final : public RenderInProgress {
 }  // namespace
 
 RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
-                           int defaultSamplesPerPixel, const MakeSampler& makeSampler) {
+                           int defaultSamplesPerPixel, const MakeSampler& makeSampler,
+                           const SharedByPass& shared) {
   // The film, the image that becomes of it, and what of a round waits to be added.
   const PixelStatistics& statistics = request.pixelStatistics;
   const double bytesAPixel = 24 + sizeof(Rgbf) + (statistics.variance ? 24 + sizeof(Rgbf) : 0) +
                              (statistics.counts ? sizeof(std::uint32_t) + sizeof(float) : 0);
-  requireMemory(
-      {filmMemory(scene.film, bytesAPixel), {kMostARound * 48.0, "samples of a round", ""}});
+  requireMemory({filmMemory(scene.film, bytesAPixel),
+                 {kMostARound * 48.0, "samples of a round", ""},
+                 shared.memory});
   RenderClock clock;
-  SampledFilm sampled(scene, makeSampler, 0, statistics);
+  SampledFilm sampled(scene, makeSampler, 0, statistics, shared);
   RoundsPlan plan;
   plan.seconds = request.budget.seconds;
   // A sample is what a mutation is compared with.
@@ -266,9 +301,10 @@ RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
   if (plan.seconds <= 0)
     for (double& mark : plan.marks) mark *= static_cast<double>(sampled.roundsAPass());
   plan.atMark = [&](std::size_t mark, const RoundsResult& rounds) {
-    clock.exclude([&] { request.atMark(mark, resultOf(scene, sampled, request, clock, rounds)); });
+    clock.exclude(
+        [&] { request.atMark(mark, resultOf(scene, sampled, request, clock, rounds, shared)); });
   };
-  SamplesInProgress progress(scene, sampled, request, clock);
+  SamplesInProgress progress(scene, sampled, request, clock, shared);
   if (request.resume) plan.begin = progress.resume(*request.resume);
   const auto watch = [&](const RoundsResult& rounds, bool over) {
     progress.setStanding(rounds, over);
@@ -277,7 +313,7 @@ RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
   if (request.watch) plan.watch = [&](long long rounds) { watch({rounds, false}, false); };
   const RoundsResult rounds = sampled.add(request, clock, plan);
   if (request.watch) watch(rounds, true);
-  return resultOf(scene, sampled, request, clock, rounds);
+  return resultOf(scene, sampled, request, clock, rounds, shared);
 }
 
 }  // namespace h2mc

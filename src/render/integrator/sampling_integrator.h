@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What path and bdpt share: a number of independent samples for each pixel, added up on a film.
+// What path, bdpt and photon share: a number of samples for each pixel, added up on a film.
 #pragma once
 
 #include <functional>
@@ -9,6 +9,7 @@
 
 #include "render/core/random.h"
 #include "render/integrator/integrator.h"
+#include "render/integrator/memory_need.h"
 #include "render/integrator/parallel_rounds.h"
 #include "render/integrator/splat_list.h"
 #include "render/scene/scene.h"
@@ -37,14 +38,36 @@ class PixelSampler {
 };
 using MakeSampler = std::function<std::unique_ptr<PixelSampler>()>;
 
+// What the samples of a pass have in common, where they have anything. Their sum is then as uncertain as passes are.
+struct SharedByPass {
+  std::function<void(long long pass)>
+      begin;  // called before the first round of it, 0, 1, ..; and before the first
+              // round of a render that goes on within it
+  std::function<void(nlohmann::json&)> addStatistics;
+  MemoryItem memory{};
+};
+
+// The mean luminance of a number of passes, and how it varies between them.
+struct PassTally {
+  double luminance = 0, squares = 0;  // of whole passes' means
+  long long passes = 0;
+  double before = 0;  // the samples' luminance in all when the last of them ended
+
+  // A pass of so many samples has ended.
+  void end(const SampleTally& all, double samples);
+  // The standard error of the mean; infinite before the second.
+  double error() const;
+};
+
 // A film and the samples on it: in each pass one for every pixel, or in one that was cut short one for some of them,
 // spread evenly, which are drawn by the seed: every pixel is as likely to have one. Memory: a
 // film, and 24 bytes for each splat of the 65,000 samples that a round has at most.
 class SampledFilm {
  public:
   // Keeps a reference to the scene. `step`: as BasicFilm's. With statistics another film has every other pass.
+  // `shared`: begin and the tally of passes are what it makes use of.
   SampledFilm(const Scene& scene, const MakeSampler& makeSampler, int step = 0,
-              PixelStatistics statistics = {});
+              PixelStatistics statistics = {}, const SharedByPass& shared = {});
 
   // Rounds in a pass.
   long long roundsAPass() const { return static_cast<long long>(side_) * side_; }
@@ -58,6 +81,8 @@ class SampledFilm {
 
   const Film& film() const { return film_; }
   SampleTally tally(int half) const;
+  // The standard error of tally(0)'s mean luminance.
+  double meanLuminanceError() const;
   // Of the picture that all samples make; the statistics have to be asked for. Samples of different passes are
   // independent.
   Image variance(int threads) const;
@@ -79,6 +104,8 @@ class SampledFilm {
   std::optional<Film> even_;           // of passes 0, 2, ..
   std::vector<std::uint32_t> counts_;  // by pixel
   std::vector<Group> groups_;
+  std::function<void(long long)> beginPass_;  // where samples of a pass share anything
+  PassTally passes_;                          // where they do
 };
 
 // Samples, in all, a pixel and a second; what was not finite; mean luminance with its error, in the file's units.
@@ -86,6 +113,7 @@ nlohmann::json sampleStatistics(const Scene& scene, const SampleTally& tally, do
 
 // Renders samplesPerPixel passes (or by time) with a sampler for each group.
 RenderResult renderSamples(const Scene& scene, const RenderRequest& request,
-                           int defaultSamplesPerPixel, const MakeSampler& makeSampler);
+                           int defaultSamplesPerPixel, const MakeSampler& makeSampler,
+                           const SharedByPass& shared = {});
 
 }  // namespace h2mc
