@@ -19,7 +19,10 @@ BINARY = os.environ.get("H2MC_BINARY", "")
 SOURCE_DIR = os.environ.get("H2MC_SOURCE_DIR",
                             os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 RING = os.path.join(SOURCE_DIR, "scenes", "ring", "ring.xml")
-INTEGRATORS = ("path", "bdpt", "mmlt", "h2mc", "lmc", "rjmlt", "mlt", "pssmlt", "remlt", "erpt", "restore")
+SAMPLERS = ("path", "bdpt", "photon")
+TOURS = ("erpt", "restore")
+CHAINS = ("mmlt", "h2mc", "lmc", "rjmlt", "mlt", "pssmlt", "remlt")
+INTEGRATORS = (*SAMPLERS, *CHAINS, *TOURS)
 
 
 def wait_for_handler(process, seconds=60):
@@ -35,10 +38,10 @@ def wait_for_handler(process, seconds=60):
 
 def quick(integrator, *options):
     """The integrator for -i, with less preparation than it makes for a real image."""
-    if integrator in ("erpt", "restore"):
+    if integrator in TOURS:
         length = {"erpt": "chainLength=10", "restore": "tourLength=10"}[integrator]
         options = ("luminanceSamples=4000", length, *options)
-    elif integrator not in ("path", "bdpt"):
+    elif integrator in CHAINS:
         options = ("bootstrapSamples=4000", "chains=32", *options)
     return integrator + (":" if options else "") + ",".join(options)
 

@@ -21,7 +21,7 @@ class Aov(_h2mc.Test):
         self.write("scene.xml", _h2mc.SCENE)
 
     def render(self, name, *more, integrator="path", budget=4):
-        option = "-s" if integrator in ("path", "bdpt") else "-m"
+        option = "-s" if integrator in _h2mc.SAMPLERS else "-m"
         self.succeeds("render", "scene.xml", "-i", _h2mc.quick(integrator), option, budget, "-o", name, "-q", *more)
         return name
 

@@ -23,7 +23,7 @@ class Merge(_h2mc.Test):
         self.write("scene.xml", _h2mc.SCENE)
 
     def render(self, name, seed, *more, integrator="path", budget=8):
-        option = "-s" if integrator in ("path", "bdpt") else "-m"
+        option = "-s" if integrator in _h2mc.SAMPLERS else "-m"
         self.succeeds("render", "scene.xml", "-i", _h2mc.quick(integrator), option, budget, "--seed", seed, "-o", name,
                       "-q", *more)
         return name

@@ -24,7 +24,7 @@ class Render(_h2mc.Test):
 
     @staticmethod
     def budget(integrator):
-        return "--samples-per-pixel" if integrator in ("path", "bdpt") else "--mutations-per-pixel"
+        return "--samples-per-pixel" if integrator in _h2mc.SAMPLERS else "--mutations-per-pixel"
 
     def test_default_output(self):
         os.mkdir(self.path("work"))

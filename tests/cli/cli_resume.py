@@ -18,7 +18,7 @@ class Resume(_h2mc.Test):
         self.write("scene.xml", _h2mc.SCENE)
 
     def arguments(self, integrator, budget, *more):
-        option = "-s" if integrator in ("path", "bdpt") else "-m"
+        option = "-s" if integrator in _h2mc.SAMPLERS else "-m"
         return ["render", "scene.xml", "-i", _h2mc.quick(integrator), option, budget, *more]
 
     def interrupt(self, command, seconds=0, until=lambda: True):
@@ -67,12 +67,13 @@ class Resume(_h2mc.Test):
         self.assertGreaterEqual(self.picture("a.exr")[0]["samples"] / (24 * 16), samples)
 
     def test_more_onto_a_finished_render(self):
-        keep = ("-o", "a.exr", "--checkpoint", "a.state")
-        self.succeeds(*self.arguments("bdpt", 8, *keep))
-        result = self.succeeds(*self.arguments("bdpt", 20, *keep, "--resume"))
-        self.assertNotIn("from the beginning", result.stderr)
-        self.succeeds(*self.arguments("bdpt", 20, "-o", "b.exr"))
-        self.assertEqual(self.picture("a.exr"), self.picture("b.exr"))
+        for name in ("bdpt", "photon"):
+            keep = ("-o", f"{name}.exr", "--checkpoint", f"{name}.state")
+            self.succeeds(*self.arguments(name, 8, *keep))
+            result = self.succeeds(*self.arguments(name, 20, *keep, "--resume"))
+            self.assertNotIn("from the beginning", result.stderr)
+            self.succeeds(*self.arguments(name, 20, "-o", "b.exr"))
+            self.assertEqual(self.picture(f"{name}.exr"), self.picture("b.exr"))
 
     def test_nothing_to_go_on_from(self):
         result = self.succeeds(*self.arguments("path", 2, "-o", "a.exr", "--resume"))

@@ -133,9 +133,9 @@ class Wild(WildTest):
         file = self.file("point-in-plane")
         values = {}
         for name in _h2mc.INTEGRATORS:
-            budget = ("--samples-per-pixel", 128) if name in ("path", "bdpt") else ("-m", 96)
+            budget = ("--samples-per-pixel", 128) if name in _h2mc.SAMPLERS else ("-m", 96)
             integrator = name
-            if name not in ("path", "bdpt", "erpt", "restore"):
+            if name in _h2mc.CHAINS:
                 integrator += ":bootstrapSamples=30000"
             values[name] = self.render(file, "-i", integrator, "--seed", 3, *budget)[0][0]
         for name, value in values.items():

@@ -9,7 +9,7 @@ import time
 
 import _h2mc
 
-BUDGETS = {"path": 8000, "bdpt": 2000, "mmlt": 5000, "h2mc": 3000, "lmc": 3000, "rjmlt": 4000, "mlt": 2500,
+BUDGETS = {"path": 8000, "bdpt": 2000, "photon": 1500, "mmlt": 5000, "h2mc": 3000, "lmc": 3000, "rjmlt": 4000, "mlt": 2500,
            "pssmlt": 1500, "remlt": 2500, "erpt": 3000, "restore": 3000}
 
 
@@ -24,7 +24,7 @@ class Kill(_h2mc.Test):
         for integrator, budget in BUDGETS.items():
             with self.subTest(integrator):
                 command = [_h2mc.BINARY, "render", "scene.xml", "-q", "-i", _h2mc.quick(integrator),
-                           "-s" if integrator in ("path", "bdpt") else "-m", str(budget), "-o"]
+                           "-s" if integrator in _h2mc.SAMPLERS else "-m", str(budget), "-o"]
                 began = time.monotonic()
                 subprocess.run([*command, "whole.exr"], cwd=self.folder, check=True)
                 whole = time.monotonic() - began

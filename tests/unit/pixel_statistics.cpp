@@ -205,8 +205,8 @@ TEST(PixelStatistics, VarianceOfOneSample) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, OfRenders,
-                         ::testing::Values("path", "bdpt", "mmlt", "h2mc", "lmc", "rjmlt", "mlt",
-                                           "pssmlt", "remlt", "erpt", "restore"),
+                         ::testing::Values("path", "bdpt", "photon", "mmlt", "h2mc", "lmc", "rjmlt",
+                                           "mlt", "pssmlt", "remlt", "erpt", "restore"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace

@@ -135,7 +135,8 @@ TEST_P(Marks, DirectLightingGrows) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, Marks, ::testing::Values("path", "bdpt", "mmlt", "h2mc"),
+INSTANTIATE_TEST_SUITE_P(Integrators, Marks,
+                         ::testing::Values("path", "bdpt", "photon", "mmlt", "h2mc"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace

@@ -177,8 +177,8 @@ TEST_P(Resume, RefusesWhatDoesNotFit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, Resume,
-                         ::testing::Values("path", "bdpt", "mmlt", "h2mc", "lmc", "rjmlt", "mlt",
-                                           "pssmlt", "remlt", "erpt", "restore"),
+                         ::testing::Values("path", "bdpt", "photon", "mmlt", "h2mc", "lmc", "rjmlt",
+                                           "mlt", "pssmlt", "remlt", "erpt", "restore"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace

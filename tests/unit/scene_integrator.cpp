@@ -59,7 +59,7 @@ TEST(SceneIntegrator, OtherMethodsOfMitsubaAreRenderedByTheNearest) {
       << scene.warnings[0];
   for (const auto& [theirs, ours] :
        {std::pair("volpath", "path"), std::pair("volpath_simple", "path"),
-        std::pair("guided_path", "path"), std::pair("photonmapper", "bdpt")}) {
+        std::pair("guided_path", "path"), std::pair("vcm", "bdpt")}) {
     const Scene read = readBody("<integrator type=\"" + std::string(theirs) + "\"/>");
     EXPECT_EQ(read.integrator.integrator(), ours);
     EXPECT_EQ(read.warnings.size(), 1u) << theirs;

@@ -13,8 +13,8 @@
 namespace h2mc {
 namespace {
 
-// Light paths a pass by default, at most: more would take more memory than they gain.
-constexpr long long kMostByDefault = 1 << 18;
+// Light paths by default: for each pixel, and in a pass at most, which takes some 300 MB.
+constexpr long long kByDefault = 4, kMostByDefault = 1 << 19;
 
 class PhotonSampler final : public PixelSampler {
  public:
@@ -64,7 +64,7 @@ class PhotonIntegrator final : public Integrator {
     photons.photons = options_.integer("photons");
     if (photons.photons == 0)
       photons.photons = static_cast<int>(
-          std::min(kMostByDefault, static_cast<long long>(scene.film.width) * scene.film.height));
+          std::min(kMostByDefault, kByDefault * scene.film.width * scene.film.height));
     SharedByPass shared;
     shared.memory = PhotonPass::memory(photons);
     PhotonPass pass(scene, photons, request.seed, request.threads);
@@ -89,7 +89,7 @@ constexpr Parameter kPhotonParameters[] = {
      "length from which Russian roulette may end a camera path"},
     {"samplesPerPixel", ParameterType::kInteger, "64", "passes, if no budget is given"},
     {"photons", ParameterType::kInteger, "0",
-     "light paths a pass; 0: one for each pixel, and no more than 262144"},
+     "light paths a pass; 0: four for each pixel, and no more than 524288"},
     {"radius", ParameterType::kNumber, "2",
      "radius of the first pass within which photons count, in pixels at their distance"},
     {"alpha", ParameterType::kNumber, "0.6667",

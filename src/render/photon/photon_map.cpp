@@ -48,8 +48,8 @@ void PhotonMap::traceGroup(int index, std::uint64_t seed, std::uint64_t pass, fl
   std::vector<Photon>& photons = lists_[at(index)];
   photons.clear();
   group.notFinite = 0;
-  const auto count = static_cast<long long>(groups_.size());
-  for (long long i = index * paths_ / count; i < (index + 1) * paths_ / count; ++i) {
+  const auto groups = static_cast<long long>(groups_.size()), all = static_cast<long long>(paths_);
+  for (long long i = index * all / groups; i < (index + 1) * all / groups; ++i) {
     Random random(seed, static_cast<std::uint64_t>(i), pass);
     // Each light, and each of its primitives, gets its share of the pass.
     const double choice = (static_cast<double>(i) + random.uniformDouble()) / paths_;

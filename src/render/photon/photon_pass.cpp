@@ -106,8 +106,10 @@ Rgbf PhotonPass::gather(const PathVertex<float>& vertex, PrimitiveId id, int len
     const BsdfValue<float> f =
         evaluateMaterial<float>(scene_.bsdfs, material, point.uv, vertex.wi, wo);
     if (!(f.pdf > 0)) return;
-    // The photons' density is that of irradiance, with the geometric cosine in it; f's is the shading frame's.
-    const float cosine = geometricCosine(point, wo, photon.toLight);
+    // The photons' density is that of irradiance, with the geometric cosine in it; f's is the shading frame's. The
+    // larger one of both points', which are the same in the limit, makes no spikes where surfaces are curved.
+    const float cosine = std::max(geometricCosine(point, wo, photon.toLight),
+                                  std::abs(dot(photon.normal, photon.toLight)));
     if (!(cosine > 0)) return;
     const float share = lobes_.share(index, material, point.uv, vertex.wi, wo);
     sum += f.value * photon.flux * (share / cosine);
