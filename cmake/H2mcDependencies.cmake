@@ -50,3 +50,11 @@ endif()
 if(NOT H2MC_CAIRO_FOUND)
   message(STATUS "No figures by h2mc compare: they need the Debian packages libcairo2-dev and pkg-config")
 endif()
+
+# Renders by several processes. Debian's name for the MPI that is installed, then those of the two that there are.
+if(PKG_CONFIG_FOUND AND H2MC_MPI)
+  pkg_search_module(H2MC_MPI QUIET IMPORTED_TARGET mpi-c ompi-c mpich)
+endif()
+if(H2MC_MPI AND NOT H2MC_MPI_FOUND)
+  message(STATUS "No renders by mpirun: they need the Debian packages libopenmpi-dev and pkg-config")
+endif()

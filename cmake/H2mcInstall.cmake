@@ -5,7 +5,7 @@
 if(TARGET h2mc)
   install(TARGETS h2mc RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
   install(TARGETS h2mc_oiio LIBRARY DESTINATION "${H2MC_MODULE_INSTALL_DIR}")
-  foreach(module h2mc_serve h2mc_figures)
+  foreach(module h2mc_serve h2mc_figures h2mc_mpi)
     if(TARGET ${module})
       install(TARGETS ${module} LIBRARY DESTINATION "${H2MC_MODULE_INSTALL_DIR}")
     endif()

@@ -9,6 +9,7 @@ option(H2MC_WERROR "Treat warnings as errors" OFF)
 set(H2MC_DERIVATIVE_EDGES 4 CACHE STRING
     "Longest paths that have the plain derivative beside the local one, 4 to 8 edges")
 set(H2MC_SANITIZE "" CACHE STRING "Sanitizers to build with, such as address,undefined")
+option(H2MC_MPI "Renders by mpirun, where MPI is found" ON)
 option(H2MC_BUILD_TESTS "Build the tests, where GoogleTest is found" ON)
 set(H2MC_TEST_FOLDERS "ad;unit;derivative;statistical;stress;image;threads" CACHE STRING
     "Which folders of tests to build; there is fuzz too")

@@ -7,7 +7,6 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
-#include "cli/stop_signals.h"
 #include "render/integrator/parallel_rounds.h"
 
 namespace h2mc {
@@ -44,10 +43,11 @@ std::string checkpointFile(const KeepOptions& options, const std::string& image)
 }
 
 Keeper::Keeper(const KeepOptions& options, Checkpoint checkpoint,
-               std::function<void(const RenderResult&)> saveImage)
+               std::function<void(const RenderResult&)> saveImage, Ranks* ranks)
     : options_(options),
       checkpoint_(std::move(checkpoint)),
       saveImage_(std::move(saveImage)),
+      ranks_(ranks),
       every_(options.every.value_or(asked() ? kAsked : kUnasked)),
       began_(wallClock()),
       lastState_(began_),
@@ -75,34 +75,53 @@ bool Keeper::keepsVariance(bool want) {
 
 bool Keeper::isDue(const RenderInProgress& render) const {
   if (!(every_ > 0) || savedLast_) return false;
-  const bool stopped = StopSignals::requested();
-  if (render.isOver() && !stopped) return asked();
+  if (render.isOver() && !stopped()) return asked();
   if (!render.isExact()) return false;
   const double now = wallClock();
   // Nobody wants a checkpoint of a short render.
-  if (stopped) return asked() || saved_ || now - began_ >= every_;
+  if (stopped()) return asked() || saved_ || now - began_ >= every_;
   return now - lastState_ >= every_;
 }
 
+bool Keeper::imageIsDue(const RenderInProgress& render) const {
+  return options_.saveEvery > 0 && !render.isOver() &&
+         wallClock() - lastImage_ >= options_.saveEvery;
+}
+
 void Keeper::look(RenderInProgress& render) {
-  if (isDue(render)) {
-    try {
-      render.pause([&] { checkpoint_.save(render); });
-      saved_ = true;
-      savedLast_ = StopSignals::requested();
-    } catch (const std::exception& e) {
-      spdlog::warn("{}", e.what());
-    }
-    lastState_ = wallClock();
+  struct Due {
+    bool state, image;
+  };
+  Due due{isDue(render), imageIsDue(render)};
+  // All ranks bring together what the first one is to write. Where one is lost there is nothing more to write.
+  try {
+    due = agreed(ranks_, due);
+    if (due.state || due.image) render.gather();
+  } catch (const RankLost&) {
+    return;
   }
-  if (options_.saveEvery > 0 && !render.isOver() &&
-      wallClock() - lastImage_ >= options_.saveEvery) {
+  if (due.state) saveState(render);
+  if (due.image) saveImage(render);
+}
+
+void Keeper::saveState(RenderInProgress& render) {
+  try {
+    if (!ranks_ || ranks_->isFirst()) render.pause([&] { checkpoint_.save(render); });
+    saved_ = true;
+    savedLast_ = stopped();
+  } catch (const std::exception& e) {
+    spdlog::warn("{}", e.what());
+  }
+  lastState_ = wallClock();
+}
+
+void Keeper::saveImage(RenderInProgress& render) {
+  if (!ranks_ || ranks_->isFirst())
     render.pause([&] {
       const RenderResult result = render.result();
       if (result.samples > 0 || result.meanLuminance > 0) saveImage_(result);
     });
-    lastImage_ = wallClock();
-  }
+  lastImage_ = wallClock();
 }
 
 void Keeper::finish(bool interrupted) {

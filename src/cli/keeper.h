@@ -8,6 +8,8 @@
 #include <string>
 
 #include "cli/checkpoint.h"
+#include "cli/stop_signals.h"
+#include "render/integrator/ranks.h"
 
 namespace CLI {
 class App;
@@ -30,9 +32,9 @@ std::string checkpointFile(const KeepOptions& options, const std::string& image)
 // written before stands.
 class Keeper {
  public:
-  // saveImage writes the image so far.
+  // saveImage writes the image so far. Of ranks, each of which has a keeper, the first one writes; null: there are none.
   Keeper(const KeepOptions& options, Checkpoint checkpoint,
-         std::function<void(const RenderResult&)> saveImage);
+         std::function<void(const RenderResult&)> saveImage, Ranks* ranks);
 
   // Where to go on from; null: from the beginning. Throws InputError.
   Archive* resume();
@@ -47,13 +49,18 @@ class Keeper {
   void finish(bool interrupted);
 
  private:
+  bool stopped() const { return ranks_ ? ranks_->stop() : StopSignals::requested(); }
   bool asked() const { return !options_.checkpoint.empty(); }
-  // Whether the state is to be written now.
+  // Whether the state is to be written now, and the image.
   bool isDue(const RenderInProgress& render) const;
+  bool imageIsDue(const RenderInProgress& render) const;
+  void saveState(RenderInProgress& render);
+  void saveImage(RenderInProgress& render);
 
   const KeepOptions options_;
   Checkpoint checkpoint_;
   std::function<void(const RenderResult&)> saveImage_;
+  Ranks* ranks_;
   double every_;
   double began_, lastState_, lastImage_;
   bool saved_ = false;      // by this render, or what it has gone on from

@@ -13,6 +13,7 @@
 
 #include "cli/command_tree.h"
 #include "cli/commands.h"
+#include "cli/join_ranks.h"
 #include "compare/comparison.h"
 #include "h2mc_version.h"
 #include "inspect/inspect.h"
@@ -62,8 +63,9 @@ bool prepareFolder(const std::filesystem::path& folder, const std::string& file)
 
 namespace {
 
+// Of several processes that were started together one talks.
 int report(int exitCode, const char* message) {
-  std::fprintf(stderr, "h2mc: %s\n", message);
+  if (rankPlace().talks()) std::fprintf(stderr, "h2mc: %s\n", message);
   return exitCode;
 }
 
@@ -131,12 +133,18 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    std::fprintf(stderr, "h2mc: %s\nTry `%s --help`.\n", messageOf(e, app).c_str(),
-                 commandName(app).c_str());
-    return kBadInput;
+    return report(kBadInput,
+                  (messageOf(e, app) + "\nTry `" + commandName(app) + " --help`.").c_str());
   }
 
   if (!command) return report(kBadInput, ("which command? available: " + joined(commands)).c_str());
+
+  // Those whose run() joins the others.
+  const Names together{"render", "rerender"};
+  if (!rankPlace().alone() && std::find(together.begin(), together.end(), first) == together.end())
+    return report(kBadInput, ("several processes can " + joined(together) + " together; \"" +
+                              first + "\" is for one alone")
+                                 .c_str());
 
   try {
     return command();

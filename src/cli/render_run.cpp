@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <thread>
 
 #include "cli/commands.h"
 #include "cli/identity.h"
 #include "cli/image_header.h"
+#include "cli/join_ranks.h"
 #include "cli/progress_display.h"
 #include "cli/statistics_table.h"
 #include "cli/stop_signals.h"
@@ -55,6 +57,7 @@ struct Plan {
   std::uint64_t seed = 0;
   int threads = 1;
   std::string sceneDigest{};
+  int ranks = 1;
 };
 
 Outputs outputsOf(const RenderOptions& options) {
@@ -156,6 +159,7 @@ nlohmann::json statisticsOf(const Plan& plan, const RenderResult& result) {
   all["programVersion"] = H2MC_VERSION_STRING;
   all["scene"] = plan.options.scene;
   all["image"] = plan.outputs.image;
+  if (plan.ranks > 1) all["ranks"] = plan.ranks;
   return all;
 }
 
@@ -260,17 +264,46 @@ nlohmann::json withState(nlohmann::json identity, const Plan& plan) {
   return identity;
 }
 
-}  // namespace
+// Before a render by ranks: all of them see the same. Throws InputError, RankLost.
+void checkAlike(Ranks& ranks, const nlohmann::json& identity, const Archive* resume) {
+  const std::uint64_t left = resume ? resume->left() : 0;
+  const std::string own = fmt::format("{} {} {}", H2MC_VERSION_STRING, left, identity.dump());
+  const std::vector<std::string> all = ranks.gather(own);
+  for (std::size_t r = 1; r < all.size(); ++r)
+    if (all[r] != all[0])
+      throw InputError(
+          fmt::format("rank {} has another program, scene or checkpoint than rank 0", r));
+}
 
-int runRender(const RenderOptions& options) {
-  if (options.quiet) spdlog::set_level(spdlog::level::err);
+// Of all ranks. Where one is lost: of this one.
+double sumOf(Ranks& ranks, double own) {
+  double sum = 0;
+  try {
+    for (const std::string& bytes :
+         ranks.gather({reinterpret_cast<const char*>(&own), sizeof own})) {
+      double one = 0;
+      std::memcpy(&one, bytes.data(), sizeof one);
+      sum += one;
+    }
+  } catch (const RankLost& e) {
+    spdlog::error("{}: the image holds what there was by then", e.what());
+    return own;
+  }
+  return sum;
+}
+
+int render(const RenderOptions& options, Ranks* ranks) {
+  const bool first = !ranks || ranks->isFirst();
+  if (options.quiet) spdlog::set_level(first ? spdlog::level::err : spdlog::level::off);
   checkBudget(options.budget);
   const Outputs outputs = outputsOf(options);
   checkIntegratorWish(options.integrator);
   toneMapping(options.look);  // throws where it means nothing
   const std::vector<LayerKind> layers = layerKinds(options.layers, "--aov");
   checkEffects(outputs, options);
-  checkOutputs(outputs, options);
+  if (first) checkOutputs(outputs, options);
+  if (ranks && (!options.live.display.empty() || options.live.serve))
+    throw InputError("--serve and --display: a render by several processes can't be watched yet");
   LiveView live(options.live, outputs.image);
 
   FilmWindow window;
@@ -285,25 +318,28 @@ int runRender(const RenderOptions& options) {
   plan.threads = options.threads > 0
                      ? options.threads
                      : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  if (ranks) plan.ranks = ranks->count();
   if (!options.quiet)
-    fmt::print(stderr, "{}: {} x {}, {}, seed {}, {} thread{}\n", options.scene, scene.film.width,
+    fmt::print(stderr, "{}: {} x {}, {}, seed {}, {} thread{}{}\n", options.scene, scene.film.width,
                scene.film.height, plan.integrator.integrator(), plan.seed, plan.threads,
-               plan.threads == 1 ? "" : "s");
+               plan.threads == 1 ? "" : "s",
+               ranks ? fmt::format(" on each of {} ranks", plan.ranks) : "");
   if (!options.quiet && !live.address().empty())
     fmt::print(stderr, "to be watched at {}\n", live.address());
 
   const nlohmann::json identity = identityOf(
       scene, {parseDefines(options.defines), options.permissive}, plan.integrator, plan.seed);
   plan.sceneDigest = sceneDigest(identity, options.scene);
-  compareWithBefore(options.again, plan);
+  if (first) compareWithBefore(options.again, plan);
 
   // Until the files are written, so that a second signal leaves no half of one.
-  const StopSignals signals;
+  const StopSignals signals(ranks != nullptr);
   live.describe(factsOf(plan));
-  plan.features = featuresFor(plan, scene);
-  Keeper keeper(options.keep,
-                Checkpoint(checkpointFile(options.keep, outputs.image), withState(identity, plan)),
-                [&](const RenderResult& soFar) { tryToWriteImages(plan, soFar); });
+  if (first) plan.features = featuresFor(plan, scene);
+  Keeper keeper(
+      options.keep,
+      Checkpoint(checkpointFile(options.keep, outputs.image), withState(identity, plan)),
+      [&](const RenderResult& soFar) { tryToWriteImages(plan, soFar); }, ranks);
   RenderResult result;
   {
     ProgressDisplay display(
@@ -313,16 +349,18 @@ int runRender(const RenderOptions& options) {
     request.budget = options.budget;
     request.seed = plan.seed;
     request.threads = plan.threads;
-    request.stop = &StopSignals::requested();
+    request.stop = ranks ? &ranks->stop() : &StopSignals::requested();
+    request.ranks = ranks;
     request.progress = [&](const RenderProgress& progress) {
       display.update(progress);
       live.progress(progress);
     };
     request.resume = keeper.resume();
+    if (ranks) checkAlike(*ranks, identity, request.resume);
     request.pixelStatistics = statisticsFor(plan.layers);
     bool& variance = request.pixelStatistics.variance;
     variance = keeper.keepsVariance(live.wantsVariance() && !variance) || variance;
-    if (options.keep.resume)
+    if (options.keep.resume && first)
       for (const std::string& file : {outputs.image, checkpointFile(options.keep, outputs.image)})
         removeAbandoned(file);
     if (keeper.wanted() || live.wanted())
@@ -340,10 +378,25 @@ int runRender(const RenderOptions& options) {
           fmt::format("\"{}\" by {}: {}", options.scene, plan.integrator.integrator(), e.what()));
     }
   }
+  if (ranks) result.cpuSeconds = sumOf(*ranks, result.cpuSeconds);
+  if (!first) return result.interrupted ? kInterrupted : kSuccess;
   const int exitCode = write(plan, result);
   if (exitCode != kFailed) keeper.finish(result.interrupted);
   live.finish(result, exitCode != kFailed);
   return exitCode;
+}
+
+}  // namespace
+
+int runRender(const RenderOptions& options) {
+  const std::unique_ptr<Ranks> ranks = joinRanks();
+  if (!ranks) return render(options, nullptr);
+  return runOnRanks(*ranks, [&] {
+    if (ranks->isFirst()) return render(options, ranks.get());
+    RenderOptions quiet = options;
+    quiet.quiet = true;
+    return render(quiet, ranks.get());
+  });
 }
 
 }  // namespace h2mc

@@ -16,8 +16,8 @@ namespace {
 std::atomic<bool> stopRequested{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "it is set in a signal handler");
 
-// SIGHUP: the terminal, or the connection to it, is gone.
-constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
+// SIGHUP: the terminal, or the connection to it, is gone. The last one is of ranks alone.
+constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP, SIGUSR1};
 std::array<struct sigaction, kSignals.size()> previous;
 
 // In milliseconds; may be called by a signal handler.
@@ -45,7 +45,7 @@ void onSignal(int) {
 
 }  // namespace
 
-StopSignals::StopSignals() {
+StopSignals::StopSignals(bool ofRanks) {
   stopRequested = false;
   firstSignal = 0;
   struct sigaction action = {};
@@ -55,8 +55,10 @@ StopSignals::StopSignals() {
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
     sigaction(kSignals[i], nullptr, &previous[i]);
     // What nohup has had ignored stays so; that a shell ignores SIGINT for jobs in the background does not.
-    if (kSignals[i] != SIGHUP || previous[i].sa_handler != SIG_IGN)
-      sigaction(kSignals[i], &action, nullptr);
+    const bool wanted = kSignals[i] == SIGUSR1  ? ofRanks
+                        : kSignals[i] == SIGHUP ? previous[i].sa_handler != SIG_IGN
+                                                : true;
+    if (wanted) sigaction(kSignals[i], &action, nullptr);
   }
 }
 

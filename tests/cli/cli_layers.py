@@ -15,6 +15,7 @@ BELOW = {
     "ad": [],
     "render": ["ad"],
     "oiio": ["render"],
+    "mpi": ["render"],
     "mcmc": ["render"],
     "check": ["mcmc"],
     "compare": ["mcmc"],

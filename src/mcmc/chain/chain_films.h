@@ -31,6 +31,10 @@ struct StateFilm {
     landed.clear();
     overTarget = 0;
   }
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(splats, overTarget, landed);
+  }
 };
 
 // Of its independent samples.
@@ -54,6 +58,11 @@ struct ChainFilms {
   void clear() {
     states.clear();
     samples.clear();
+  }
+  // What there is to add: to be sorted anew.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(states, samples.splats);
   }
 };
 

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/core/archive.h"
 #include "render/core/index.h"
 #include "render/integrator/parallel_rounds.h"
+#include "render/integrator/ranks.h"
 #include "render/path/bidirectional.h"
 #include "render/path/path_text.h"
 
@@ -15,60 +17,83 @@ namespace h2mc {
 namespace {
 constexpr std::uint64_t kStream = 0x626f6f74;  // apart from the chains' streams
 constexpr long long kBlock = 4096;
+constexpr int kBlocksAMeeting = 16;  // of a rank
 }  // namespace
 
+// What a block of samples has added up.
+struct Bootstrap::Block {
+  std::vector<double> sum, squares;
+  long long notFinite = 0, samples = 0;
+  std::string firstNotFinite;
+};
+
 Bootstrap::Bootstrap(const Scene& scene, int minLength, int maxLength, long long samples,
-                     std::uint64_t seed, int threads, const std::atomic<bool>* stop)
+                     std::uint64_t seed, int threads, const std::atomic<bool>* stop, Ranks* ranks)
     : scene_(scene),
       minLength_(minLength),
       maxLength_(maxLength),
       seed_(seed),
       threads_(threads),
-      stop_(stop) {
+      stop_(stop),
+      ranks_(ranks) {
   const auto count = at(TechniqueDistribution(minLength, maxLength).size());
   for (auto* sum : {&techniqueSum_, &techniqueSquareSum_}) sum->assign(count, 0);
   extendTo(samples);
 }
 
+void Bootstrap::trace(Block& block, long long first, std::span<double> luminances) const {
+  const TechniqueDistribution techniques(minLength_, maxLength_);
+  block.sum.assign(techniqueSum_.size(), 0);
+  block.squares.assign(techniqueSum_.size(), 0);
+  block.samples = static_cast<long long>(luminances.size());
+  BidirectionalSampler sampler(maxLength_);
+  for (double& luminance : luminances) {
+    Random random(seed_, kStream, static_cast<std::uint64_t>(first++));
+    double sum = 0;
+    const int notFinite = sampler.sample(scene_, random, -1, -1, minLength_,
+                                         [&](const BidirectionalSampler::Connection& c) {
+                                           const double y = h2mc::luminance(c.contribution);
+                                           const auto k = at(techniques.index(c.technique));
+                                           block.sum[k] += y;
+                                           block.squares[k] += y * y;
+                                           sum += y;
+                                         });
+    if (notFinite > 0 && block.notFinite == 0)
+      block.firstNotFinite =
+          pathText(sampler.lastNotFinite(), sampler.primarySample(sampler.lastNotFinite()));
+    block.notFinite += notFinite;
+    luminance = sum;
+  }
+}
+
 void Bootstrap::extendTo(long long samples) {
   const auto had = static_cast<long long>(cumulative_.size());
   if (samples <= had) return;
-  const TechniqueDistribution techniques(minLength_, maxLength_);
   const std::size_t count = techniqueSum_.size();
-  struct Block {
-    std::vector<double> sum, squares;
-    long long notFinite = 0, samples = 0;
-    std::string firstNotFinite;
-  };
   const auto blocks = static_cast<int>((samples - had + kBlock - 1) / kBlock);
-  std::vector<Block> block(static_cast<std::size_t>(blocks));
-  cumulative_.resize(static_cast<std::size_t>(samples));
-  parallelFor(threads_, blocks, [&](int b) {
-    Block& own = block[at(b)];
-    if ((had > 0 || b > 0) && stop_ && *stop_) return;
-    own.sum.assign(count, 0);
-    own.squares.assign(count, 0);
-    BidirectionalSampler sampler(maxLength_);
-    const long long first = had + b * kBlock, end = std::min(samples, first + kBlock);
-    own.samples = end - first;
-    for (long long i = first; i < end; ++i) {
-      Random random(seed_, kStream, static_cast<std::uint64_t>(i));
-      double sum = 0;
-      const int notFinite = sampler.sample(scene_, random, -1, -1, minLength_,
-                                           [&](const BidirectionalSampler::Connection& c) {
-                                             const double y = h2mc::luminance(c.contribution);
-                                             const auto k = at(techniques.index(c.technique));
-                                             own.sum[k] += y;
-                                             own.squares[k] += y * y;
-                                             sum += y;
-                                           });
-      if (notFinite > 0 && own.notFinite == 0)
-        own.firstNotFinite =
-            pathText(sampler.lastNotFinite(), sampler.primarySample(sampler.lastNotFinite()));
-      own.notFinite += notFinite;
-      cumulative_[at(i)] = sum;
-    }
-  });
+  std::vector<Block> block(at(blocks));
+  cumulative_.resize(at(samples));
+  const auto luminances = [&](int b) {
+    const long long first = had + b * kBlock;
+    return std::span(cumulative_).subspan(at(first), at(std::min(kBlock, samples - first)));
+  };
+  // Ranks look at the stop flag when they meet.
+  const int stretch = ranks_ ? kBlocksAMeeting * ranks_->count() : blocks;
+  for (int begin = 0; begin < blocks; begin += stretch) {
+    const int size = std::min(stretch, blocks - begin);
+    const Share own = shareOf(ranks_, size);
+    parallelFor(threads_, own.end - own.begin, [&](int i) {
+      const int b = begin + own.begin + i;
+      if ((had > 0 || b > 0) && stop_ && *stop_) return;
+      trace(block[at(b)], had + b * kBlock, luminances(b));
+    });
+    exchange(ranks_, size, [&](Archive& archive, int i) {
+      Block& each = block[at(begin + i)];
+      archive(each.sum, each.squares, each.notFinite, each.samples, each.firstNotFinite);
+      const std::span<double> all = luminances(begin + i);
+      archive.bytes(all.data(), all.size_bytes());
+    });
+  }
   double total = had > 0 ? cumulative_[at(had) - 1] : 0;
   auto at = cumulative_.begin() + had;
   for (const Block& own : block) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -11,6 +12,8 @@
 #include "mcmc/targets/target.h"
 
 namespace h2mc {
+
+class Ranks;
 
 // A replayed bootstrap sample did not give the luminance that the bootstrap saw: the two ways of
 // tracing disagree, and no chain may start. A bug in the renderer, never bad input.
@@ -23,10 +26,10 @@ class Bootstrap {
  public:
   // Traces `samples` bidirectional samples of path lengths minLength .. maxLength; sample i draws
   // from Random(seed, its own stream, i). The same result for any number of threads. Once `stop` is set,
-  // if it is given, no more samples are begun; some there are always.
+  // if it is given, no more samples are begun; some there are always. Ranks share out the samples: throws RankLost.
   Bootstrap(const Scene& scene, int minLength, int maxLength, long long samples, std::uint64_t seed,
-            int threads, const std::atomic<bool>* stop = nullptr);
-  // The same as if it had been made with so many; with fewer than there are, nothing.
+            int threads, const std::atomic<bool>* stop = nullptr, Ranks* ranks = nullptr);
+  // The same as if it had been made with so many; with fewer than there are, nothing. Throws RankLost.
   void extendTo(long long samples);
 
   // Luminance of a whole sample: its mean is the film's mean luminance (of these path lengths).
@@ -47,6 +50,9 @@ class Bootstrap {
   void drawStart(double u, Random& random, Path& start) const;
 
  private:
+  struct Block;
+  // Samples from number `first` on, as many as `luminances` has room for.
+  void trace(Block& block, long long first, std::span<double> luminances) const;
   std::vector<double> perSample(std::vector<double> sums) const;
 
   const Scene& scene_;
@@ -54,6 +60,7 @@ class Bootstrap {
   std::uint64_t seed_;
   int threads_;
   const std::atomic<bool>* stop_;
+  Ranks* ranks_;
   std::vector<double> cumulative_;  // of the samples' luminances
   Moments luminance_;
   std::vector<double> techniqueSum_, techniqueSquareSum_;

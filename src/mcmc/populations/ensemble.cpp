@@ -8,6 +8,7 @@
 #include "render/core/archive.h"
 #include "render/core/index.h"
 #include "render/integrator/parallel_rounds.h"
+#include "render/integrator/ranks.h"
 
 namespace h2mc {
 namespace {
@@ -37,6 +38,7 @@ ChainEnsemble::ChainEnsemble(const Scene& scene, const MetropolisMethod& method,
       seed_(request.seed),
       threads_(request.threads),
       maxLength_(maxLength),
+      ranks_(request.ranks),
       useMap_(options.boolean("importanceMap")),
       target_(scene, maxLength, importance_),
       techniques_(minLength, maxLength),
@@ -133,6 +135,15 @@ void ChainEnsemble::run(int index, long long steps) {
 }
 
 void ChainEnsemble::endRound() {
+  exchange(ranks_, groups(), [&](Archive& archive, int g) {
+    Group& group = groups_[at(g)];
+    archive(group.films, group.statistics.mutations, group.statistics.largeSteps);
+    if (group.base) archive(*group.base);
+  });
+  if (ranks_)
+    parallelFor(threads_, groups(), [&, own = shareOf(ranks_, groups())](int g) {
+      if (!own.has(g)) image_.sort(groups_[at(g)].films);
+    });
   std::vector<ImageEstimate::Part> parts;
   for (Group& group : groups_) {
     const long long mutations = group.statistics.mutations;
@@ -242,16 +253,26 @@ Members ChainEnsemble::renewed(const ImportanceMap& next) const {
   return members;
 }
 
+void ChainEnsemble::archiveGroup(Archive& archive, Group& group) {
+  archive(group.kernels, group.statistics, group.context.derivatives, group.context.notFinite,
+          group.mutationsBefore, group.samplesBefore, group.mutationsOfPast);
+  if (group.base) archive(*group.base);
+  if (group.replicas) archive(*group.replicas);
+}
+
+void ChainEnsemble::gather() {
+  exchange(ranks_, groups(), [&](Archive& archive, int g) {
+    Group& group = groups_[at(g)];
+    for (std::size_t c = group.begin; c < group.end; ++c) archive(*chains_[c]);
+    archiveGroup(archive, group);
+  });
+}
+
 void ChainEnsemble::archive(Archive& archive) {
   archive(importance_, half_, epoch_, image_, stateNoise_, sampleNoise_);
   if (archive.reading()) formGroups(half_);
   for (const auto& chain : chains_) archive(*chain);
-  for (Group& group : groups_) {
-    archive(group.kernels, group.statistics, group.context.derivatives, group.context.notFinite,
-            group.mutationsBefore, group.samplesBefore, group.mutationsOfPast);
-    if (group.base) archive(*group.base);
-    if (group.replicas) archive(*group.replicas);
-  }
+  for (Group& group : groups_) archiveGroup(archive, group);
 }
 
 nlohmann::json ChainEnsemble::replicasJson() const {

@@ -32,8 +32,12 @@ class ChainEnsemble {
 
   // Makes `steps` mutations with each chain of a group. Groups may run in parallel.
   void run(int group, long long steps);
-  // Adds what all groups have made to the picture. To be called between one round of runs and the next.
+  // Adds what all groups have made to the picture. To be called between one round of runs and the next. Ranks bring it
+  // together: throws RankLost, having added nothing.
   void endRound();
+  // Of all ranks, between two rounds: brings together where their chains stand and what they have counted. To be called
+  // before nextEpoch(), result() and archive(). Throws RankLost.
+  void gather();
 
   // Whether the epoch is over. Then endEpoch() and nextEpoch() may be called, between two rounds; `direct` is
   // an image of what the chains leave out, in the scene's units, or null.
@@ -81,6 +85,7 @@ class ChainEnsemble {
     }
   };
 
+  void archiveGroup(Archive& archive, Group& group);
   // Puts replicas beside the groups' chains, where the options ask for them.
   void addReplicas(const MetropolisMethod& method, const OptionSet& options, int minLength);
   nlohmann::json replicasJson() const;
@@ -100,6 +105,7 @@ class ChainEnsemble {
   const Scene& scene_;
   std::uint64_t seed_;
   int threads_, maxLength_;
+  Ranks* ranks_;
   bool useMap_;
   ImportanceMap importance_;
   SceneTarget target_;

@@ -8,6 +8,7 @@
 #include "render/core/index.h"
 #include "render/core/random.h"
 #include "render/integrator/path_integrator.h"
+#include "render/integrator/ranks.h"
 #include "render/scene/scene.h"
 
 namespace h2mc {
@@ -111,6 +112,7 @@ void DirectLighting::addHalf(Part& part) {
   own.threads = request_.threads;
   own.stop = request_.stop;
   own.progress = request_.progress;
+  own.ranks = request_.ranks;
   plan.begin = part.rounds;
   RenderClock clock;
   clock.advance(part.halfSeconds, 0);
@@ -238,7 +240,7 @@ void DirectLighting::balance(const Standing& now) {
   const bool timed = now.endSeconds > 0;
   double sampleCost = 1, mutationCost = kMutationCost * now.mutationCost;
   if (timed) {
-    sampleCost = seconds_ / had;
+    sampleCost = agreed(request_.ranks, seconds_) / had;
     mutationCost = now.chainSeconds / now.mutations;
     if (!(sampleCost > 0 && mutationCost > 0)) return;
   }

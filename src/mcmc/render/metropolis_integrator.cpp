@@ -12,6 +12,7 @@
 #include "render/core/archive.h"
 #include "render/integrator/common_options.h"
 #include "render/integrator/parallel_rounds.h"
+#include "render/integrator/ranks.h"
 
 namespace h2mc {
 namespace {
@@ -50,6 +51,9 @@ class MetropolisRender final : public SplitRender {
   RenderResult result() const override;
   bool isExact() const override;
   void save(Archive& archive) override;
+  void gather() override {
+    if (chains_) chains_->gather();
+  }
 
  private:
   // What it is at: the first direct light, the chains, or direct light between two of their epochs.
@@ -108,9 +112,10 @@ void MetropolisRender::makeBootstrap() {
                                        : kLeastBootstrap;
   const double before = clock_.wallSeconds();
   bootstrap_.emplace(scene_, minLength_, maxLength_, first, request_.seed, request_.threads,
-                     request_.stop);
+                     request_.stop, request_.ranks);
   if (restored_) return;
-  const double each = (clock_.wallSeconds() - before) / static_cast<double>(first);
+  const double each =
+      agreed(request_.ranks, (clock_.wallSeconds() - before) / static_cast<double>(first));
   if (timed()) affordable_ = request_.budget.seconds / each / pixels();
   bootstrapCount_ = wanted > 0 ? wanted : std::max(first, bootstrapSamples(each));
   bootstrap_->extendTo(bootstrapCount_);
@@ -124,6 +129,7 @@ void MetropolisRender::makeBootstrap() {
 
 // Direct lighting has its film while the chains have none.
 void MetropolisRender::endEpoch(ChainEnsemble& chains) {
+  chains.gather();
   const TwoEstimates picture = chains.halves();
   const std::vector<double> weights = direct_.weights(picture.mean(), chains.cell());
   if (split()) direct_.measure(picture, weights);
@@ -166,6 +172,7 @@ RoundsPlan MetropolisRender::plan(ChainEnsemble& chains) {
       plan.marks.push_back(steps(mark) / static_cast<double>(round_));
   }
   plan.atMark = [&](std::size_t mark, const RoundsResult&) {
+    chains.gather();
     atMark(mark, [&] { return chains.result(); });
     if (split()) balance(chains);
   };
@@ -197,6 +204,7 @@ RenderResult MetropolisRender::withChains() {
   if (stepsPerChain_ == 0 || stepsDone_ < stepsPerChain_)
     done = runRounds(request_, clock_, chains.groups(), rounds,
                      [&](int group, long long) { chains.run(group, roundNow()); });
+  gatherLast();
   lookLast();
   chains.endEpoch();
   RenderResult result = chains.result();
@@ -216,7 +224,11 @@ RenderResult MetropolisRender::run() {
     extendDirect(0);
   }
   if (minLength_ > maxLength_) return directAlone();
-  makeBootstrap();
+  try {
+    makeBootstrap();
+  } catch (const RankLost&) {
+    return directAlone();
+  }
   if (bootstrap_->luminance().mean() > 0) return withChains();
   return withoutLight();
 }

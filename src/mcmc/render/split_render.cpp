@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "mcmc/populations/epochs.h"
+#include "render/integrator/ranks.h"
 
 namespace h2mc {
 
@@ -63,6 +64,7 @@ void SplitRender::balanceDirect(double mutations, double mutationCost) {
   now.mutationCost = mutationCost;
   now.seconds = clock_.wallSeconds();
   now.chainSeconds = now.seconds - began_ - (direct_.seconds() - directBefore_);
+  if (timed()) now = agreed(request_.ranks, now);
   if (nextMark_ < request_.marks.size())
     (timed() ? now.endSeconds : now.endMutations) = request_.marks[nextMark_];
   else if (timed())
@@ -77,6 +79,14 @@ void SplitRender::atMark(std::size_t mark, const std::function<RenderResult()>& 
   clock_.exclude([&] { request_.atMark(mark, finished(result())); });
   nextMark_ = mark + 1;
   extendDirect(nextMark_);
+}
+
+void SplitRender::gatherLast() {
+  try {
+    gather();
+  } catch (const RankLost&) {
+    // The picture is whole: what there is of it is brought together after each round.
+  }
 }
 
 void SplitRender::lookLast() {

@@ -46,6 +46,8 @@ class SplitRender : public RenderInProgress {
   // Hands out a result at a mark, without counting the time that takes.
   void atMark(std::size_t mark, const std::function<RenderResult()>& result);
   void look() { request_.watch(*this); }
+  // When the render is over. Where a rank is lost, what the others have counted since they last met is missing.
+  void gatherLast();
   void lookLast();
   // Where there is nothing for mutations to do.
   RenderResult directAlone();

@@ -6,6 +6,8 @@
 
 #include "mcmc/populations/epochs.h"
 #include "render/core/archive.h"
+#include "render/integrator/parallel_rounds.h"
+#include "render/integrator/ranks.h"
 
 namespace h2mc {
 namespace {
@@ -22,6 +24,8 @@ TourEnsemble::TourEnsemble(const Scene& scene, const TourMethod& method, const O
                            const RenderRequest& request)
     : scene_(scene),
       asked_(request.pixelStatistics),
+      threads_(request.threads),
+      ranks_(request.ranks),
       target_(scene, maxLength, limitOf(options, meanLuminance)),
       rule_(method.rule(options, meanLuminance)),
       picture_(scene.film, request.threads, rule_->weight(), asked_) {
@@ -39,6 +43,13 @@ void TourEnsemble::run(long long batch) {
 }
 
 void TourEnsemble::endRound() {
+  exchange(ranks_, kGroups, [&](Archive& archive, int g) {
+    archive(groups_[at(g)].films(), groups_[at(g)].counts());
+  });
+  if (ranks_)
+    parallelFor(threads_, kGroups, [&, own = shareOf(ranks_, kGroups)](int g) {
+      if (!own.has(g)) picture_.sort(groups_[at(g)].films());
+    });
   std::vector<TourPicture::Part> parts;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const long long samples = groups_[g].counts().samples;
@@ -47,6 +58,10 @@ void TourEnsemble::endRound() {
     samplesBefore_[g] = samples;
   }
   picture_.add(parts);
+}
+
+void TourEnsemble::gather() {
+  exchange(ranks_, kGroups, [&](Archive& archive, int g) { archive(groups_[at(g)]); });
 }
 
 TourCounts TourEnsemble::counts() const {

@@ -24,7 +24,10 @@ class TourEnsemble {
   // Batch number `batch`, by group number batch % kGroups. Groups may run in parallel.
   void run(long long batch);
   // Adds what all groups have made to the picture. To be called between one round of runs and the next.
+  // Ranks bring it together: throws RankLost, having added nothing.
   void endRound();
+  // Of all ranks, before nextEpoch(), result() and archive(): as ChainEnsemble's. Throws RankLost.
+  void gather();
 
   bool epochIsOver() const;
   void nextEpoch();
@@ -44,6 +47,8 @@ class TourEnsemble {
 
   const Scene& scene_;
   PixelStatistics asked_;
+  int threads_;
+  Ranks* ranks_;
   LimitedTarget target_;
   std::unique_ptr<TourRule> rule_;
   std::vector<TourGroup> groups_;

@@ -39,6 +39,7 @@ class TourGroup {
   ChainFilms& films() { return films_; }
   const KernelMixture& kernels() const { return kernels_; }
   const TourCounts& counts() const { return counts_; }
+  TourCounts& counts() { return counts_; }
   const BlockMoments& blocks() const { return blocks_; }
   ChainStatistics statistics() const;
 

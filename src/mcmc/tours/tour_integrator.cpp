@@ -13,6 +13,7 @@
 #include "render/integrator/common_options.h"
 #include "render/integrator/memory_need.h"
 #include "render/integrator/parallel_rounds.h"
+#include "render/integrator/ranks.h"
 
 namespace h2mc {
 namespace {
@@ -35,6 +36,9 @@ class TourRender final : public SplitRender {
   // Direct light that was cut short has another number of samples than it would have had.
   bool isExact() const override { return !inexact_ && !direct_.interrupted(); }
   void save(Archive& archive) override;
+  void gather() override {
+    if (tours_) tours_->gather();
+  }
 
  private:
   enum class Stage : int { kDirect, kTours };
@@ -62,7 +66,7 @@ class TourRender final : public SplitRender {
 double TourRender::meanLuminance() {
   long long samples = options_.integer("luminanceSamples");
   Bootstrap bootstrap(scene_, minLength_, maxLength_, samples, request_.seed, request_.threads,
-                      request_.stop);
+                      request_.stop, request_.ranks);
   while (!(bootstrap.luminance().mean() > 0) && samples < kMostBootstrap && !stopped())
     bootstrap.extendTo(samples *= 2);
   bootstrapNotFinite_ = {bootstrap.notFinite(), bootstrap.firstNotFinite()};
@@ -71,6 +75,7 @@ double TourRender::meanLuminance() {
 
 // A state that is saved while direct light is made has the next epoch's kernels already.
 void TourRender::endEpoch() {
+  tours_->gather();
   tours_->nextEpoch();
   if (split()) {
     const TwoEstimates picture = tours_->halves();
@@ -97,6 +102,7 @@ RoundsPlan TourRender::plan() {
     for (const double mark : request_.marks) plan.marks.push_back(rounds(mark));
   }
   plan.atMark = [this](std::size_t mark, const RoundsResult&) {
+    tours_->gather();
     atMark(mark, [this] { return tours_->result(); });
   };
   plan.endOfRound = [this] {
@@ -128,6 +134,7 @@ RenderResult TourRender::withTours() {
     done = runRounds(
         request_, clock_, TourEnsemble::kGroups, rounds,
         [&](int group, long long round) { tours_->run(round * TourEnsemble::kGroups + group); });
+  gatherLast();
   lookLast();
   RenderResult result = tours_->result();
   result.interrupted = done.interrupted || stoppedEarly;
@@ -146,7 +153,11 @@ RenderResult TourRender::run() {
     extendDirect(0);
   }
   if (minLength_ > maxLength_) return directAlone();
-  if (stage_ == Stage::kDirect) meanLuminance_ = meanLuminance();
+  try {
+    if (stage_ == Stage::kDirect) meanLuminance_ = meanLuminance();
+  } catch (const RankLost&) {
+    return directAlone();
+  }
   if (meanLuminance_ > 0) return withTours();
   return withoutLight();
 }

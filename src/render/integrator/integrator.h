@@ -19,6 +19,7 @@
 namespace h2mc {
 
 class Archive;
+class Ranks;
 struct Scene;
 
 // How long to render; all zero means the integrator's own default. Where a time and a number are
@@ -42,6 +43,8 @@ struct RenderResult;
 class RenderInProgress {
  public:
   virtual ~RenderInProgress() = default;
+  // Of all ranks (ranks.h), before result() and save(): brings together what they have. Throws RankLost.
+  virtual void gather() {}
   // What there is so far; changes nothing.
   virtual RenderResult result() const = 0;
   // Whether a render that goes on from save() gives, with a budget in samples or mutations, the same image as this one
@@ -75,6 +78,9 @@ struct RenderRequest {
   // What save() wrote in a render of the same scene, integrator, options and seed, to go on from; null: from the
   // beginning. The budget is that of both together and may be larger than it was. Without marks.
   Archive* resume = nullptr;
+  // The processes that render this together; null: this one does it alone. `stop` is then that of the ranks, and all of
+  // them are asked for the same and have the same result, but for what each has counted since it was last gathered.
+  Ranks* ranks = nullptr;
   PixelStatistics pixelStatistics;
 };
 

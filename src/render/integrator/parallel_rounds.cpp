@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "render/integrator/ranks.h"
+
 namespace h2mc {
 namespace {
 
@@ -66,40 +68,49 @@ RoundsResult runRounds(const RenderRequest& request, const RenderClock& clock, i
     const double elapsed = clock.wallSeconds();
     const double rounds = inFirstPass() ? 1 : static_cast<double>(plan.roundsAPass);
     const double next = rounds * (elapsed - start) / made();
-    return elapsed + std::max(next / 2, next - kLate * limit) > limit;
+    return agreed(request.ranks, elapsed + std::max(next / 2, next - kLate * limit) > limit);
   };
   const auto mayEnd = [&] { return inFirstPass() || result.rounds % plan.roundsAPass == 0; };
   std::size_t mark = 0;
-  while (plan.rounds == 0 || result.rounds < plan.rounds) {
-    // One round at least: an interruption never leaves an empty picture.
-    if (made() > 0 && (plan.stopsInPass || mayEnd()) && stopped()) {
-      result.interrupted = true;
-      break;
+  const Share own = shareOf(request.ranks, groups);
+  const auto makeRounds = [&] {
+    while (plan.rounds == 0 || result.rounds < plan.rounds) {
+      // One round at least: an interruption never leaves an empty picture.
+      if (made() > 0 && (plan.stopsInPass || mayEnd()) && stopped()) {
+        result.interrupted = true;
+        break;
+      }
+      if (timed && made() > 0 && mayEnd() && reached(plan.seconds)) break;
+      if (result.rounds > 0 && plan.betweenRounds) plan.betweenRounds();
+      parallelFor(request.threads, own.end - own.begin,
+                  [&](int i) { work(own.begin + i, result.rounds); });
+      if (plan.endOfRound) plan.endOfRound();
+      ++result.rounds;
+      if (request.progress) {
+        const double now = clock.wallSeconds();
+        const double done = static_cast<double>(result.rounds);
+        const double fraction =
+            plan.rounds > 0 ? done / static_cast<double>(plan.rounds) : now / plan.seconds;
+        request.progress(
+            {std::min(fraction, 1.0), now, made() * plan.unitsPerRound / (now - start), plan.unit});
+      }
+      if (plan.watch) plan.watch(result.rounds);
+      if (!mayEnd()) continue;
+      const auto passed = [&] {
+        return timed ? reached(plan.marks[mark])
+                     : static_cast<double>(result.rounds) >= plan.marks[mark];
+      };
+      for (; mark < plan.marks.size() && passed(); ++mark) plan.atMark(mark, result);
     }
-    if (timed && made() > 0 && mayEnd() && reached(plan.seconds)) break;
-    if (result.rounds > 0 && plan.betweenRounds) plan.betweenRounds();
-    parallelFor(request.threads, groups, [&](int group) { work(group, result.rounds); });
-    ++result.rounds;
-    if (plan.endOfRound) plan.endOfRound();
-    if (request.progress) {
-      const double now = clock.wallSeconds();
-      const double done = static_cast<double>(result.rounds);
-      const double fraction =
-          plan.rounds > 0 ? done / static_cast<double>(plan.rounds) : now / plan.seconds;
-      request.progress(
-          {std::min(fraction, 1.0), now, made() * plan.unitsPerRound / (now - start), plan.unit});
-    }
-    if (plan.watch) plan.watch(result.rounds);
-    if (!mayEnd()) continue;
-    const auto passed = [&] {
-      return timed ? reached(plan.marks[mark])
-                   : static_cast<double>(result.rounds) >= plan.marks[mark];
-    };
-    for (; mark < plan.marks.size() && passed(); ++mark) plan.atMark(mark, result);
+    // A mark at the limit itself may not have been seen to be passed.
+    if (!result.interrupted)
+      for (; mark < plan.marks.size(); ++mark) plan.atMark(mark, result);
+  };
+  try {
+    makeRounds();
+  } catch (const RankLost&) {
+    result.interrupted = true;
   }
-  // A mark at the limit itself may not have been seen to be passed.
-  if (!result.interrupted)
-    for (; mark < plan.marks.size(); ++mark) plan.atMark(mark, result);
   return result;
 }
 

@@ -62,6 +62,8 @@ struct RoundsPlan {
 // Calls work(group, round) for all groups of a round in parallel, round after round, until the plan
 // is fulfilled or the request's stop flag is set. One round is made at least, if the plan has one, and a started one is
 // completed: all groups have done the same number of rounds when it returns.
+// Ranks share out the groups of each round: endOfRound has to bring together what they have made, and throws RankLost
+// where it can't, which is an interruption before that round.
 // The clock may have run before: its time counts. A time is reached where one more round, or pass, would end
 // further from it than we are now, or end later than it by more than a twentieth.
 RoundsResult runRounds(const RenderRequest& request, const RenderClock& clock, int groups,

@@ -9,6 +9,7 @@
 #include "render/core/index.h"
 #include "render/core/unit_interval.h"
 #include "render/integrator/common_options.h"
+#include "render/integrator/ranks.h"
 
 namespace h2mc {
 namespace {
@@ -140,10 +141,10 @@ double SampledFilm::meanLuminanceError() const {
   return passes_.passes < 2 ? tally(0).meanLuminanceError() : passes_.error();
 }
 
-// A group's share of a round: consecutive ones of the round's pixels.
-void SampledFilm::sample(int index, long long round, std::uint64_t seed, int half) {
-  Group& group = groups_[at(index)];
-  SampleTally& tally = group.tally[half];
+// Consecutive ones of the round's pixels.
+template <class Visit>
+void SampledFilm::forEachPixel(int index, long long round, std::uint64_t seed,
+                               const Visit& visit) const {
   const int width = scene_.film.width, height = scene_.film.height;
   const int inPass = static_cast<int>(round % roundsAPass());
   const auto pass = static_cast<std::uint64_t>(round / roundsAPass());
@@ -156,7 +157,15 @@ void SampledFilm::sample(int index, long long round, std::uint64_t seed, int hal
     const Offset offset = inSquare(inPass, side_, mixBits(shifts ^ static_cast<std::uint64_t>(i)));
     const int x = offset.x + side_ * static_cast<int>(i % columns);
     const int y = offset.y + side_ * static_cast<int>(i / columns);
-    if (x >= width || y >= height) continue;
+    if (x < width && y < height) visit(x, y, pass);
+  }
+}
+
+void SampledFilm::sample(int index, long long round, std::uint64_t seed, int half) {
+  Group& group = groups_[at(index)];
+  SampleTally& tally = group.tally[half];
+  const int width = scene_.film.width, height = scene_.film.height;
+  forEachPixel(index, round, seed, [&](int x, int y, std::uint64_t pass) {
     const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width) +
                        static_cast<std::uint64_t>(x);
     Random random(seed, pixel, pass);
@@ -167,12 +176,47 @@ void SampledFilm::sample(int index, long long round, std::uint64_t seed, int hal
     ++tally.samples;
     if (pass % 2 == 0) ++group.inEven;
     if (!counts_.empty()) ++counts_[pixel];
+  });
+}
+
+void SampledFilm::gather(const RenderRequest& request, long long round) {
+  const auto count = static_cast<int>(groups_.size());
+  const Share own = shareOf(request.ranks, count);
+  const auto landed = [&](int group, std::uint32_t one) {
+    if (counts_.empty()) return;
+    forEachPixel(group, round, request.seed, [&](int x, int y, std::uint64_t) {
+      counts_[at(y) * at(scene_.film.width) + at(x)] += one;
+    });
+  };
+  try {
+    exchange(request.ranks, count, [&](Archive& archive, int g) {
+      Group& group = groups_[at(g)];
+      archive(group.splats, group.tally[0], group.tally[1], group.inEven);
+    });
+  } catch (const RankLost&) {
+    for (int g = own.begin; g < own.end; ++g) {
+      Group& group = groups_[at(g)];
+      static_cast<Counts&>(group) = group.before;
+      landed(g, ~std::uint32_t{0});  // one less
+    }
+    throw;
   }
+  const int bands = bandCount(request.threads, film_.height());
+  parallelFor(request.threads, count, [&](int g) {
+    Group& group = groups_[at(g)];
+    group.before = group;
+    if (own.has(g)) return;
+    landed(g, 1);
+    group.splats.sort(film_, bands);
+  });
 }
 
 void SampledFilm::archive(Archive& archive) {
   archive(film_);
-  for (Group& group : groups_) archive(group.tally[0], group.tally[1], group.inEven);
+  for (Group& group : groups_) {
+    archive(group.tally[0], group.tally[1], group.inEven);
+    group.before = group;
+  }
   if (even_) archive(*even_);
   if (beginPass_) archive(passes_);
   const std::size_t pixels = counts_.size();
@@ -213,6 +257,7 @@ RoundsResult SampledFilm::add(const RenderRequest& request, const RenderClock& c
   for (Group& group : groups_) parts.push_back({&group.splats, half});
   long long round = plan.begin;
   plan.endOfRound = [&] {
+    if (request.ranks) gather(request, round);
     if (even_ && round / roundsAPass() % 2 == 0) addKeeping<double>(parts, request.threads, *even_);
     ++round;
     addInOrder<double>(parts, request.threads, film_);

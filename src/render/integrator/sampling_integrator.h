@@ -90,13 +90,21 @@ class SampledFilm {
   std::vector<float> counts() const { return {counts_.begin(), counts_.end()}; }
 
  private:
-  struct Group {
-    std::unique_ptr<PixelSampler> sampler;
-    SplatList splats;
+  struct Counts {
     SampleTally tally[2];
     long long inEven = 0;  // samples of passes 0, 2, ..
   };
+  struct Group : Counts {
+    std::unique_ptr<PixelSampler> sampler;
+    SplatList splats;
+    Counts before;  // the round, where there are ranks
+  };
+  // Calls visit(x, y, pass) for the pixels of a group's share of a round.
+  template <class Visit>
+  void forEachPixel(int group, long long round, std::uint64_t seed, const Visit& visit) const;
   void sample(int group, long long round, std::uint64_t seed, int half);
+  // Brings together what the ranks have made of a round. Throws RankLost, the round being forgotten.
+  void gather(const RenderRequest& request, long long round);
 
   const Scene& scene_;
   int side_;  // a round has one pixel of each square of side x side

@@ -20,6 +20,11 @@ class SplatList {
   }
   std::size_t size() const { return splats_.size(); }
   void clear();
+  // The splats alone: to be sorted anew.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(splats_);
+  }
 
   // Splits the film's rows into `bands` equal parts and finds which splats reach each of them. To be called
   // when all splats are there; different lists may be sorted at the same time.
