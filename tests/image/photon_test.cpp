@@ -29,8 +29,8 @@ RenderResult render(const Scene& scene, const std::string& integrator, const Opt
 
 // A floor of reflectance 0.5 at y = 0, a mirror above it at y = 4, a point light of intensity 10 at y = 3, seen by a
 // camera that looks straight up into the mirror: light, mirror, floor, mirror, camera. The mirror makes a second light
-// at y = 5, so the floor has the irradiance 10 * 5 / (x^2 + z^2 + 5^2)^1.5 by way of the mirror; within a disk of radius
-// r around (0, 0) that is in the mean 10 / 25 * 2 / R^2 * (1 - 1 / sqrt(1 + R^2)), R = r / 5.
+// at y = 5, so the floor has the irradiance 10 * 5 / (x^2 + z^2 + 5^2)^1.5 by way of the mirror; within a disk of
+// radius r around (0, 0) that is in the mean 10 / 25 * 2 / R^2 * (1 - 1 / sqrt(1 + R^2)), R = r / 5.
 constexpr double kHeight = 5, kDistance = 7;  // of the camera to the floor by way of the mirror
 std::string mirrorScene() {
   return R"(<scene version="0.6.0"><sensor type="perspective"><float name="fov" value="3"/>

@@ -11,21 +11,11 @@
 #include "render/integrator/integrator.h"
 #include "render/integrator/memory_need.h"
 #include "render/integrator/parallel_rounds.h"
+#include "render/integrator/sample_tally.h"
 #include "render/integrator/splat_list.h"
 #include "render/scene/scene.h"
 
 namespace h2mc {
-
-// Tallies of one group, merged in the groups' order.
-struct SampleTally {
-  double luminance = 0, squares = 0;  // of whole samples, splats to other pixels included
-  long long samples = 0;
-  long long notFinite = 0;  // contributions left out
-
-  void add(const SampleTally& other);
-  double meanLuminance() const;
-  double meanLuminanceError() const;  // its standard error
-};
 
 // Draws the samples of one group: owns what must not be shared.
 class PixelSampler {
@@ -45,18 +35,6 @@ struct SharedByPass {
               // round of a render that goes on within it
   std::function<void(nlohmann::json&)> addStatistics;
   MemoryItem memory{};
-};
-
-// The mean luminance of a number of passes, and how it varies between them.
-struct PassTally {
-  double luminance = 0, squares = 0;  // of whole passes' means
-  long long passes = 0;
-  double before = 0;  // the samples' luminance in all when the last of them ended
-
-  // A pass of so many samples has ended.
-  void end(const SampleTally& all, double samples);
-  // The standard error of the mean; infinite before the second.
-  double error() const;
 };
 
 // A film and the samples on it: in each pass one for every pixel, or in one that was cut short one for some of them,

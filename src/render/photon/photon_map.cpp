@@ -64,8 +64,9 @@ void PhotonMap::tracePath(Random& random, float lightChoice, float time,
   if (!pickLight(scene_, scene_.emissionPicker, lightChoice, light, primitive)) return;
   const float u0 = random.uniform(), u1 = random.uniform();
   const float v0 = random.uniform(), v1 = random.uniform();
-  PathRay<float> ray = startLight<float>(scene_, light, primitive, u0, u1, v0, v1, &time);
   const int least = isBeam(scene_.lights[at(light)]) ? 1 : 2;
+  if (least >= maxDepth_) return;
+  PathRay<float> ray = startLight<float>(scene_, light, primitive, u0, u1, v0, v1, &time);
   const float share = 1 / static_cast<float>(paths_);
   for (int edges = 1; edges < maxDepth_; ++edges) {
     const float before = largest(ray.throughput);

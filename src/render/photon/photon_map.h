@@ -32,8 +32,8 @@ class PhotonMap {
   // references. Precondition: 1 <= paths <= kMostPaths.
   PhotonMap(const Scene& scene, const WideLobes& lobes, int paths, int maxDepth);
 
-  // Traces those of the pass at this moment of the shutter's opening, into cells of this size. A function of seed, pass,
-  // time and cell, whatever the number of threads. Reuses the memory of the pass before.
+  // Traces those of the pass at this moment of the shutter's opening, into cells of this size. A function of seed,
+  // pass, time and cell, whatever the number of threads. Reuses the memory of the pass before.
   void trace(std::uint64_t seed, std::uint64_t pass, float time, float cell, int threads);
 
   const PointGrid<Photon>& photons() const { return grid_; }
@@ -58,7 +58,7 @@ class PhotonMap {
 };
 
 // r_n / r_1 in pass n, n >= 1: r_(n+1)^2 / r_n^2 = (n + alpha) / (n + 1) [Knaus and Zwicker 2011], so that r_n^2 falls
-// as n^(alpha - 1), and with 0 < alpha < 1 both variance and bias of the mean of all passes go to 0: as n^-alpha, and as
+// as n^(alpha - 1). With 0 < alpha < 1 variance and bias of the mean of all passes go to 0, as n^-alpha and as
 // n^(alpha - 1).
 double radiusOfPass(long long n, double alpha);
 
