@@ -5,12 +5,15 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <new>
 #include <optional>
 #include <string_view>
+#include <thread>
 
 #include "cli/commands.h"
 #include "cli/stop_signals.h"
@@ -27,6 +30,17 @@ std::optional<int> number(const char* variable) {
   if (error != std::errc() || end != all.data() + all.size() || value < 0) return std::nullopt;
   return value;
 }
+
+// Where a rank is gone the others get SIGTERM, and soon after SIGKILL, by when the image has to be written: by mpirun in a
+// second, if it has not been told otherwise, by srun in 30.
+double patience() {
+  if (!StopSignals::isUrgent()) return 60;
+  if (const auto seconds = number("OMPI_MCA_odls_base_sigkill_timeout"))
+    return std::max(0.3, *seconds / 3.);
+  return number("OMPI_COMM_WORLD_SIZE") ? 0.3 : 10;
+}
+// mpirun waits less long once any of them has ended: so the first one ends first.
+constexpr std::chrono::seconds kOthersStay{2};
 
 RankLink* linkOfModule(const RankPlace& place) {
   const std::string who =
@@ -70,7 +84,7 @@ std::unique_ptr<Ranks> joinRanks() {
         fmt::format("{} processes were started to render together, but by another MPI than this "
                     "build's, which sees {}",
                     place.count, link->count()));
-  return std::make_unique<Ranks>(std::move(link), StopSignals::requested());
+  return std::make_unique<Ranks>(std::move(link), StopSignals::requested(), patience);
 }
 
 int runOnRanks(Ranks& ranks, const std::function<int()>& work) {
@@ -95,6 +109,7 @@ int runOnRanks(Ranks& ranks, const std::function<int()>& work) {
   }
   if (ranks.severed()) {
     // MPI would wait for who is gone.
+    if (!ranks.isFirst()) std::this_thread::sleep_for(kOthersStay);
     std::fflush(nullptr);
     _exit(exitCode);
   }

@@ -13,7 +13,7 @@
 namespace h2mc {
 namespace {
 
-std::atomic<bool> stopRequested{false};
+std::atomic<bool> stopRequested{false}, urgent{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "it is set in a signal handler");
 
 // SIGHUP: the terminal, or the connection to it, is gone. The last one is of ranks alone.
@@ -32,7 +32,8 @@ constexpr long long kSameWish = 1000;
 std::atomic<long long> firstSignal{0};  // when it came; 0: not yet
 static_assert(std::atomic<long long>::is_always_lock_free, "as above");
 
-void onSignal(int) {
+void onSignal(int signal) {
+  if (signal != SIGUSR1) urgent = true;
   const long long time = now();
   long long first = 0;
   if (firstSignal.compare_exchange_strong(first, time)) {
@@ -47,6 +48,7 @@ void onSignal(int) {
 
 StopSignals::StopSignals(bool ofRanks) {
   stopRequested = false;
+  urgent = false;
   firstSignal = 0;
   struct sigaction action = {};
   action.sa_handler = onSignal;
@@ -67,6 +69,8 @@ StopSignals::~StopSignals() {
 }
 
 const std::atomic<bool>& StopSignals::requested() { return stopRequested; }
+
+bool StopSignals::isUrgent() { return urgent; }
 
 void StopSignals::request() {
   long long none = 0;

@@ -19,6 +19,8 @@ class StopSignals {
 
   // Becomes true when the render is to stop.
   static const std::atomic<bool>& requested();
+  // Whether one of those has come after which SIGKILL may come soon: any but SIGUSR1.
+  static bool isUrgent();
   // What a first signal does.
   static void request();
 };

@@ -74,7 +74,7 @@ void onRanks(int count, const std::function<void(Ranks&, std::atomic<bool>&)>& w
   for (int rank = 0; rank < count; ++rank)
     threads.emplace_back([&, rank] {
       std::atomic<bool> wish{false};
-      Ranks ranks(std::make_unique<ThreadLink>(meeting, rank), wish);
+      Ranks ranks(std::make_unique<ThreadLink>(meeting, rank), wish, [] { return 0.5; });
       work(ranks, wish);
     });
   for (std::thread& thread : threads) thread.join();

@@ -23,10 +23,8 @@ struct Header {
 };
 static_assert(sizeof(Header) == 56);
 
-// Seconds for which a rank that is asked to stop waits for the others. Where one is gone the rest get SIGTERM and soon
-// after SIGKILL: by default mpirun gives them one second, in which the image has to be written. Those that have all
-// agreed to stop were there a moment ago, and may be busy with a checkpoint.
-constexpr double kPatience = 0.5, kPatienceOnceAgreed = 30;
+// Of those that have all agreed to stop: they were there a moment ago, and may be busy with a checkpoint.
+constexpr double kPatienceOnceAgreed = 30;
 constexpr int kFailedExitCode = 3;
 
 Share shareOf(int rank, int ranks, int things) {
@@ -36,8 +34,9 @@ Share shareOf(int rank, int ranks, int things) {
 
 }  // namespace
 
-Ranks::Ranks(std::unique_ptr<RankLink> link, const std::atomic<bool>& wish)
-    : link_(std::move(link)), wish_(wish) {}
+Ranks::Ranks(std::unique_ptr<RankLink> link, const std::atomic<bool>& wish,
+             std::function<double()> patience)
+    : link_(std::move(link)), wish_(wish), patience_(std::move(patience)) {}
 
 void Ranks::lose(const std::string& why, int exitCode) {
   lost_ = true;
@@ -53,7 +52,7 @@ void Ranks::receive(const char* own, std::span<const std::size_t> sizes, char* a
     if (!wish_) return true;
     const double now = wallClock();
     if (asked == 0) asked = now;
-    return now - asked < (stop_ ? kPatienceOnceAgreed : kPatience);
+    return now - asked < (stop_ ? kPatienceOnceAgreed : patience_());
   };
   if (link_->gather(own, sizes, all, goOn)) return;
   severed_ = true;

@@ -33,8 +33,10 @@ class RankLost : public std::runtime_error {
 // What is said "of all ranks" is to be called by all of them, the same calls in the same order, from one thread.
 class Ranks {
  public:
-  // `wish`: set when this process is asked to stop. Keeps a reference.
-  Ranks(std::unique_ptr<RankLink> link, const std::atomic<bool>& wish);
+  // `wish`: set when this process is asked to stop; keeps a reference. `patience`: for how many seconds it then waits for
+  // the others, which may be gone.
+  Ranks(std::unique_ptr<RankLink> link, const std::atomic<bool>& wish,
+        std::function<double()> patience);
 
   int rank() const { return link_->rank(); }
   int count() const { return link_->count(); }
@@ -74,6 +76,7 @@ class Ranks {
 
   std::unique_ptr<RankLink> link_;
   const std::atomic<bool>& wish_;
+  std::function<double()> patience_;
   std::atomic<bool> stop_{false};
   bool lost_ = false, severed_ = false;
   std::string why_;
