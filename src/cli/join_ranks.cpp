@@ -31,8 +31,8 @@ std::optional<int> number(const char* variable) {
   return value;
 }
 
-// Where a rank is gone the others get SIGTERM, and soon after SIGKILL, by when the image has to be written: by mpirun in a
-// second, if it has not been told otherwise, by srun in 30.
+// Where a rank is gone the others get SIGTERM, and soon after SIGKILL, by when the image has to be written: by mpirun
+// in a second, if it has not been told otherwise, by srun in 30.
 double patience() {
   if (!StopSignals::isUrgent()) return 60;
   if (const auto seconds = number("OMPI_MCA_odls_base_sigkill_timeout"))

@@ -32,7 +32,8 @@ std::string checkpointFile(const KeepOptions& options, const std::string& image)
 // written before stands.
 class Keeper {
  public:
-  // saveImage writes the image so far. Of ranks, each of which has a keeper, the first one writes; null: there are none.
+  // saveImage writes the image so far. Of ranks, each of which has a keeper, the first one writes; null: there are
+  // none.
   Keeper(const KeepOptions& options, Checkpoint checkpoint,
          std::function<void(const RenderResult&)> saveImage, Ranks* ranks);
 

@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kMostAtOnce = std::size_t{1} << 30;
 // MPI would wait on a whole core, which may be one that another rank computes on: after so many tries it is asked only
 // so often.
-constexpr int kTries = 200;
+constexpr int kTries = 2000;
 constexpr std::chrono::microseconds kPause{50};
 
 class MpiLink final : public RankLink {

@@ -17,7 +17,7 @@ namespace h2mc {
 namespace {
 constexpr std::uint64_t kStream = 0x626f6f74;  // apart from the chains' streams
 constexpr long long kBlock = 4096;
-constexpr int kBlocksAMeeting = 16;  // of a rank
+constexpr int kBlocksAMeeting = 4;  // of each of a rank's threads
 }  // namespace
 
 // What a block of samples has added up.
@@ -78,7 +78,8 @@ void Bootstrap::extendTo(long long samples) {
     return std::span(cumulative_).subspan(at(first), at(std::min(kBlock, samples - first)));
   };
   // Ranks look at the stop flag when they meet.
-  const int stretch = ranks_ ? kBlocksAMeeting * ranks_->count() : blocks;
+  const int stretch =
+      ranks_ ? kBlocksAMeeting * ranks_->agreed(std::max(threads_, 1)) * ranks_->count() : blocks;
   for (int begin = 0; begin < blocks; begin += stretch) {
     const int size = std::min(stretch, blocks - begin);
     const Share own = shareOf(ranks_, size);

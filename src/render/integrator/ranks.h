@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One render by several processes, the ranks. All of them do the same, but for the groups of each round, which they
-// share out: what the groups have made is brought together at the end of the round, and every rank adds all of it in the
-// groups' order. So nothing depends on the number of ranks.
+// share out: what the groups have made is brought together at the end of the round, and every rank adds all of it in
+// the groups' order. So nothing depends on the number of ranks.
 #pragma once
 
 #include <atomic>
@@ -33,8 +33,8 @@ class RankLost : public std::runtime_error {
 // What is said "of all ranks" is to be called by all of them, the same calls in the same order, from one thread.
 class Ranks {
  public:
-  // `wish`: set when this process is asked to stop; keeps a reference. `patience`: for how many seconds it then waits for
-  // the others, which may be gone.
+  // `wish`: set when this process is asked to stop; keeps a reference. `patience`: for how many seconds it then waits
+  // for the others, which may be gone.
   Ranks(std::unique_ptr<RankLink> link, const std::atomic<bool>& wish,
         std::function<double()> patience);
 
