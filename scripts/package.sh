@@ -4,8 +4,8 @@
 # installs what is missing, builds the preset sse2 in build/sse2, packs. With H2MC_PACKAGE_PRESET=avx2 one for
 # processors with AVX2. --try unpacks the package into a folder and renders there; then, where there are root and
 # debootstrap, installs it in a bare Debian 12 (build/package/try) and renders there.
-# The Python module is not in it: that is for one interpreter alone. Nor is the module for MPI, which would bring MPI with
-# it. DEBFULLNAME and DEBEMAIL say who answers for the package.
+# The Python module is not in it: that is for one interpreter alone. Nor is the module for MPI, which would bring MPI
+# with it. DEBFULLNAME and DEBEMAIL say who answers for the package.
 set -euo pipefail
 root=$(cd -P -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." >/dev/null && pwd)
 source "$root/scripts/lib.sh"

@@ -161,7 +161,8 @@ class Mpi(_h2mc.Test):
         # What only one of them sees.
         self.write("other.xml", _h2mc.SCENE.replace("0.5, 0.5, 0.5", "0.6, 0.5, 0.5"))
         for other, code, words in (("other.xml", 2, "rank 1 has another program, scene or checkpoint than rank 0"),
-                                   ("missing.xml", 2, "rank 1: missing.xml: error: cannot read the scene: no such file")):
+                                   ("missing.xml", 2,
+                                    "rank 1: missing.xml: error: cannot read the scene: no such file")):
             messages = self.by_ranks(1, "render", "scene.xml", "-m", 8, "-o", "a.exr", ":", "-n", 1, _h2mc.BINARY,
                                      "render", other, "-m", 8, "-o", "a.exr", code=code)
             self.assertEqual(re.findall("^h2mc: (.*)", messages, re.MULTILINE), [words], messages)
