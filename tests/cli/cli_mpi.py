@@ -69,11 +69,11 @@ class Mpi(_h2mc.Test):
 
     def render(self, integrator, budget, *more):
         return ["render", "scene.xml", "--threads", 1, "-i", _h2mc.quick(integrator),
-                "-s" if integrator in ("path", "bdpt") else "-m", budget, *more]
+                "-s" if integrator in _h2mc.SAMPLERS else "-m", budget, *more]
 
     # The same image by one process and by any number of ranks: with epochs, replicas, layers of variances and counts.
     def test_number_of_ranks_does_not_matter(self):
-        for integrator in ("h2mc", "mmlt", "lmc", "remlt", "path", "bdpt", "erpt", "restore"):
+        for integrator in ("h2mc", "mmlt", "lmc", "remlt", *_h2mc.SAMPLERS, "erpt", "restore"):
             layers = ("--aov", "variance,mutations,normal")
             with self.subTest(integrator):
                 self.succeeds(*self.render(integrator, 40, "-o", "one.exr", *layers))
