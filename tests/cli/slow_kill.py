@@ -9,8 +9,8 @@ import time
 
 import _h2mc
 
-BUDGETS = {"path": 8000, "bdpt": 2000, "photon": 1500, "mmlt": 5000, "h2mc": 3000, "lmc": 3000, "rjmlt": 4000, "mlt": 2500,
-           "pssmlt": 1500, "remlt": 2500, "erpt": 3000, "restore": 3000}
+BUDGETS = {"path": 8000, "bdpt": 2000, "photon": 1500, "mmlt": 5000, "h2mc": 3000, "lmc": 3000, "rjmlt": 4000,
+           "mlt": 2500, "pssmlt": 1500, "remlt": 2500, "erpt": 3000, "restore": 3000}
 
 
 class Kill(_h2mc.Test):

@@ -41,7 +41,8 @@ class PathIntegrator final : public Integrator {
   RenderResult render(const Scene& scene, const RenderRequest& request) override {
     if (scene.hasBeam())
       spdlog::warn(
-          "path tracing can't find the light of collimated emitters: it is missing; bdpt, photon and "
+          "path tracing can't find the light of collimated emitters: it is missing; bdpt, photon "
+          "and "
           "all integrators with chains have it");
     return renderSamples(scene, request, options_.integer("samplesPerPixel"),
                          [&] { return std::make_unique<PathSampler>(path_); });
