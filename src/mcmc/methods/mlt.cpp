@@ -6,27 +6,28 @@
 namespace h2mc {
 namespace {
 
-struct Share {
+struct MutationShare {
   std::string_view mutation, option;
 };
-constexpr std::array<Share, 5> kShares = {{{"veachBidirectional", "bidirectionalShare"},
-                                           {"veachLens", "lensShare"},
-                                           {"caustic", "causticShare"},
-                                           {"multiChain", "multiChainShare"},
-                                           {"lensSubpath", "lensSubpathShare"}}};
+constexpr std::array<MutationShare, 5> kMutationShares = {
+    {{"veachBidirectional", "bidirectionalShare"},
+     {"veachLens", "lensShare"},
+     {"caustic", "causticShare"},
+     {"multiChain", "multiChainShare"},
+     {"lensSubpath", "lensSubpathShare"}}};
 
 std::vector<MetropolisMethod::Step> steps(const OptionSet& options) {
   double sum = 0;
-  for (const Share& share : kShares) sum += options.number(share.option);
+  for (const MutationShare& share : kMutationShares) sum += options.number(share.option);
   std::vector<MetropolisMethod::Step> steps;
-  for (const Share& share : kShares)
+  for (const MutationShare& share : kMutationShares)
     steps.push_back({share.mutation, options.number(share.option) / sum, {}});
   return steps;
 }
 
 void check(const OptionSet& options) {
   bool any = false;
-  for (const Share& share : kShares) {
+  for (const MutationShare& share : kMutationShares) {
     requireRange(options, share.option, 0, 1);
     any |= options.number(share.option) > 0;
   }

@@ -14,20 +14,20 @@
 namespace h2mc {
 namespace {
 
-struct Share {
+struct StepShare {
   std::string_view option, mutation;
   std::optional<double> cost;  // in isotropic steps, as the methods of chains have it
 };
-constexpr std::array<Share, 10> kShares = {{{"lensShare", "lens", {}},
-                                            {"isotropicShare", "isotropic", 1},
-                                            {"hamiltonianShare", "hamiltonian", 4},
-                                            {"langevinShare", "langevin", 2.5},
-                                            {"veachLensShare", "veachLens", {}},
-                                            {"causticShare", "caustic", {}},
-                                            {"multiChainShare", "multiChain", {}},
-                                            {"lensSubpathShare", "lensSubpath", {}},
-                                            {"bidirectionalShare", "veachBidirectional", {}},
-                                            {"techniqueShare", "technique", {}}}};
+constexpr std::array<StepShare, 10> kShares = {{{"lensShare", "lens", {}},
+                                                {"isotropicShare", "isotropic", 1},
+                                                {"hamiltonianShare", "hamiltonian", 4},
+                                                {"langevinShare", "langevin", 2.5},
+                                                {"veachLensShare", "veachLens", {}},
+                                                {"causticShare", "caustic", {}},
+                                                {"multiChainShare", "multiChain", {}},
+                                                {"lensSubpathShare", "lensSubpath", {}},
+                                                {"bidirectionalShare", "veachBidirectional", {}},
+                                                {"techniqueShare", "technique", {}}}};
 
 constexpr Parameter kParameters[] = {
     kMaxDepthParameter,
@@ -70,7 +70,7 @@ std::span<const TourMethod> tourMethods() {
     for (TourMethod& method : methods) {
       add(kParameters, method.parameters);
       add(method.ownParameters, method.parameters);
-      for (const Share& share : kShares)
+      for (const StepShare& share : kShares)
         add(mutationNamed(share.mutation).parameters, method.parameters);
     }
     return methods;
@@ -83,7 +83,7 @@ void checkOptions(const TourMethod& method, const OptionSet& options) {
   requireRange(options, "luminanceSamples", 1, kNoLimit);
   requireRange(options, "targetLimit", 0, kNoLimit);
   bool any = false;
-  for (const Share& share : kShares) {
+  for (const StepShare& share : kShares) {
     requireRange(options, share.option, 0, 1);
     any |= options.number(share.option) > 0;
     if (const auto check = mutationNamed(share.mutation).check) check(options);
@@ -99,14 +99,14 @@ KernelMixture makeTourKernels(const PathTarget& target, const OptionSet& options
   // Nobody draws one technique.
   static const TechniqueDistribution kNone(1, 1);
   double sum = 0;
-  for (const Share& share : kShares) sum += options.number(share.option);
+  for (const StepShare& share : kShares) sum += options.number(share.option);
   SlotNumbers slots;
   const MutationSetup setup{target, kNone, minLength, options, slots};
   KernelMixture kernels;
   kernels.large = std::make_unique<BidirectionalLargeStep>(target, minLength, slots);
   kernels.largeProbability = 0;
   kernels.meanTarget = meanTarget;
-  for (const Share& share : kShares)
+  for (const StepShare& share : kShares)
     if (const double own = options.number(share.option); own > 0)
       kernels.small.push_back({mutationNamed(share.mutation).create(setup), own / sum, share.cost});
   kernels.width = static_cast<float>(target.scene().film.width);
