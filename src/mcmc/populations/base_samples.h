@@ -8,11 +8,11 @@
 
 namespace h2mc {
 
-// Those that one group of chains makes: numbers part, part + parts, part + 2 parts ... of a sequence, whose number n goes
-// through the n-th point of a low-discrepancy sequence on the film, shifted by the seed. Groups that share a sequence
-// spread their samples evenly over the film together; sequences are independent of each other. Each half of the chains
-// has its own, as the variance is told from what the halves differ by: of one sequence between them each half would get
-// every second stripe of the film.
+// Those that one group of chains makes: numbers part, part + parts, part + 2 parts ... of a sequence, whose number n
+// goes through the n-th point of a low-discrepancy sequence on the film, shifted by the seed. Groups that share a
+// sequence spread their samples evenly over the film together; sequences are independent of each other. Each half of
+// the chains has its own, as the variance is told from what the halves differ by: of one sequence between them each
+// half would get every second stripe of the film.
 class BaseSamples {
  public:
   // Keeps a reference.
