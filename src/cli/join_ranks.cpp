@@ -39,9 +39,6 @@ double patience() {
     return std::max(0.3, *seconds / 3.);
   return number("OMPI_COMM_WORLD_SIZE") ? 0.3 : 10;
 }
-// mpirun waits less long once any of them has ended: so the first one ends first.
-constexpr std::chrono::seconds kOthersStay{2};
-
 RankLink* linkOfModule(const RankPlace& place) {
   const std::string who =
       fmt::format("{} processes were started to render together, but ", place.count);
@@ -73,6 +70,11 @@ RankPlace rankPlace() {
   if (const auto found = place("PMI_RANK", "PMI_SIZE")) return *found;
   if (const auto found = place("PMIX_RANK", "SLURM_STEP_NUM_TASKS")) return *found;
   return {};
+}
+
+void letFirstEnd() {
+  constexpr std::chrono::seconds kOthersStay{10};
+  if (!rankPlace().talks()) std::this_thread::sleep_for(kOthersStay);
 }
 
 std::unique_ptr<Ranks> joinRanks() {
@@ -109,7 +111,7 @@ int runOnRanks(Ranks& ranks, const std::function<int()>& work) {
   }
   if (ranks.severed()) {
     // MPI would wait for who is gone.
-    if (!ranks.isFirst()) std::this_thread::sleep_for(kOthersStay);
+    letFirstEnd();
     std::fflush(nullptr);
     _exit(exitCode);
   }

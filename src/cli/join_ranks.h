@@ -18,6 +18,10 @@ struct RankPlace {
 };
 RankPlace rankPlace();
 
+// Where something has gone wrong: all but the first wait a while for it to end before them. mpirun ends the others as
+// soon as one has ended, and with them what the first one has to say or to write.
+void letFirstEnd();
+
 // Joins the others; null where there are none. Throws InputError where there are and this build can't join them.
 std::unique_ptr<Ranks> joinRanks();
 

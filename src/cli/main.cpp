@@ -66,6 +66,7 @@ namespace {
 // Of several processes that were started together one talks.
 int report(int exitCode, const char* message) {
   if (rankPlace().talks()) std::fprintf(stderr, "h2mc: %s\n", message);
+  letFirstEnd();
   return exitCode;
 }
 

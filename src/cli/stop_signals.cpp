@@ -30,6 +30,8 @@ long long now() {
 // A key that bounces, or a shell and a terminal that both pass a signal on, are no wish to lose the picture.
 constexpr long long kSameWish = 1000;
 std::atomic<long long> firstSignal{0};  // when it came; 0: not yet
+// mpirun asks more than once, and has the last word anyway.
+std::atomic<bool> oneIsEnough{false};
 static_assert(std::atomic<long long>::is_always_lock_free, "as above");
 
 void onSignal(int signal) {
@@ -38,7 +40,7 @@ void onSignal(int signal) {
   long long first = 0;
   if (firstSignal.compare_exchange_strong(first, time)) {
     stopRequested = true;
-  } else if (time - first > kSameWish) {
+  } else if (!oneIsEnough && time - first > kSameWish) {
     removeTemporaryFiles();
     _exit(kFailed);
   }
@@ -49,6 +51,7 @@ void onSignal(int signal) {
 StopSignals::StopSignals(bool ofRanks) {
   stopRequested = false;
   urgent = false;
+  oneIsEnough = ofRanks;
   firstSignal = 0;
   struct sigaction action = {};
   action.sa_handler = onSignal;
