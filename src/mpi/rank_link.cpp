@@ -35,9 +35,9 @@ struct Job {
   bool succeeded = false;
 };
 
-// All calls of MPI are made by a thread of their own, and no data are the caller's: where another rank is gone, Open MPI
-// may never return from the call in which it finds that out (4.1 waits there for mpirun to take down a message), and
-// the caller has a picture to write.
+// All calls of MPI are made by a thread of their own, and no data are the caller's. Where another rank is gone, Open
+// MPI may never return from the call in which it finds that out: 4.1 waits there for mpirun to take down a message.
+// The caller has a picture to write by then.
 class MpiThread {
  public:
   // Of the thread, which ends with a job to leave. Tells what MPI_Init_thread says.
