@@ -57,7 +57,7 @@ asan_tests() {
   wait "$unit" || status=1
   export ASAN_OPTIONS=${ASAN_OPTIONS/detect_leaks=1/detect_leaks=0}
   ctest --test-dir "$root/build/asan" -j2 --output-on-failure --output-junit "$reports/asan-cli.xml" \
-    -L '^cli$' -E 'slow|cli_(render|compare|demo|gradcheck|stress|inspect|motion)' || status=1
+    -L '^cli$' -E 'slow|cli_(render|compare|demo|gradcheck|stress|inspect|motion|mpi)' || status=1
   ctest --test-dir "$root/build/asan" -j2 --output-on-failure --output-junit "$reports/asan-fuzz.xml" -L '^fuzz$' ||
     status=1
   unset ASAN_OPTIONS LSAN_OPTIONS UBSAN_OPTIONS
