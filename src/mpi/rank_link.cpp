@@ -112,7 +112,8 @@ class MpiThread {
       std::exclusive_scan(counts.begin(), counts.end(), places.begin(), 0);
       char* to = job_.all.data();
       if (largest > most) {
-        piece.resize(static_cast<std::size_t>(places.back() + counts.back()));
+        piece.resize(static_cast<std::size_t>(places.back()) +
+                     static_cast<std::size_t>(counts.back()));
         to = piece.data();
       }
       if (!gatherPiece(job_.own.data() + std::min(done, job_.own.size()), counts, places, to))

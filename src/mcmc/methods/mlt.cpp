@@ -20,6 +20,7 @@ std::vector<MetropolisMethod::Step> steps(const OptionSet& options) {
   double sum = 0;
   for (const MutationShare& share : kMutationShares) sum += options.number(share.option);
   std::vector<MetropolisMethod::Step> steps;
+  steps.reserve(kMutationShares.size());
   for (const MutationShare& share : kMutationShares)
     steps.push_back({share.mutation, options.number(share.option) / sum, {}});
   return steps;

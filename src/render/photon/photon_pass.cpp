@@ -55,8 +55,9 @@ float PhotonPass::typicalDistance() const {
     Random random(0, kPilotStream, static_cast<std::uint64_t>(cell));
     PrimarySample shared;
     drawShared(scene_.shared(), random, shared);
-    const float x = (static_cast<float>(cell % kGrid) + 0.5f) / kGrid;
-    const float y = (static_cast<float>(cell / kGrid) + 0.5f) / kGrid;
+    const int column = cell % kGrid, row = cell / kGrid;
+    const float x = (static_cast<float>(column) + 0.5f) / kGrid;
+    const float y = (static_cast<float>(row) + 0.5f) / kGrid;
     walk.radiance(scene_, random, shared.time,
                   startCamera<float>(scene_, x, y, &shared.time, shared.aperture.data()), tally,
                   [&](const PathVertex<float>& vertex, PrimitiveId id, LobeId, int length) {
