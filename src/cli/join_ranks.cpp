@@ -39,6 +39,7 @@ double patience() {
     return std::max(0.3, *seconds / 3.);
   return number("OMPI_COMM_WORLD_SIZE") ? 0.3 : 10;
 }
+
 RankLink* linkOfModule(const RankPlace& place) {
   const std::string who =
       fmt::format("{} processes were started to render together, but ", place.count);

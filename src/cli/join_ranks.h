@@ -26,7 +26,7 @@ void letFirstEnd();
 std::unique_ptr<Ranks> joinRanks();
 
 // Calls work(), and returns its exit code or that of what it has thrown, which the first rank says. Whatever becomes of
-// the ranks, they end in order, the first one last. May end the process by itself.
+// the ranks, they end in order; where one is lost, after the first. May end the process by itself.
 int runOnRanks(Ranks& ranks, const std::function<int()>& work);
 
 }  // namespace h2mc

@@ -8,7 +8,8 @@ namespace h2mc {
 
 // While one exists, the first SIGINT, SIGTERM or SIGHUP asks the render to stop, and another one
 // more than a second later ends the program at once, without a picture, with exit code 3; no half-written file is left.
-// `ofRanks`: SIGUSR1 too, which mpirun hands on to all ranks without killing them soon after.
+// `ofRanks`: SIGUSR1 too, which mpirun hands on to all ranks without killing them soon after; and another one ends
+// nothing, as mpirun asks more than once and kills by itself.
 // Only one at a time.
 class StopSignals {
  public:
