@@ -11,12 +11,12 @@ MOST_MEGABYTES = 400  # of which OpenImageIO's libraries alone take a third
 ZEROS = bytes(700)
 
 
-def exr(width, height, tiled=False, compression=3):
+def exr(width, height, tile=None, compression=3):
     def attribute(name, kind, data):
         return name + b"\0" + kind + b"\0" + struct.pack("<i", len(data)) + data
     channels = b"".join(c + b"\0" + struct.pack("<iiii", 1, 0, 1, 1) for c in (b"B", b"G", b"R")) + b"\0"
     window = struct.pack("<iiii", 0, 0, width - 1, height - 1)
-    data = b"\x76\x2f\x31\x01" + struct.pack("<I", 2 | (0x200 if tiled else 0))
+    data = b"\x76\x2f\x31\x01" + struct.pack("<I", 2 | (0x200 if tile else 0))
     data += attribute(b"channels", b"chlist", channels)
     data += attribute(b"compression", b"compression", bytes([compression]))
     data += attribute(b"dataWindow", b"box2i", window) + attribute(b"displayWindow", b"box2i", window)
@@ -24,8 +24,8 @@ def exr(width, height, tiled=False, compression=3):
     data += attribute(b"pixelAspectRatio", b"float", struct.pack("<f", 1))
     data += attribute(b"screenWindowCenter", b"v2f", bytes(8))
     data += attribute(b"screenWindowWidth", b"float", struct.pack("<f", 1))
-    if tiled:
-        data += attribute(b"tiles", b"tiledesc", struct.pack("<IIB", width, height, 0))
+    if tile:
+        data += attribute(b"tiles", b"tiledesc", struct.pack("<IIB", *tile, 0))
     return data + b"\0" + bytes(350)
 
 
@@ -72,7 +72,8 @@ def heif(width, height):
 HDR = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n"
 IMAGES = {
     "scanlines.exr": exr(16384, 16384),
-    "tiles.exr": exr(16384, 16384, tiled=True),
+    "tiles.exr": exr(16384, 16384, tile=(16384, 16384)),
+    "tile.exr": exr(4, 4, tile=(16384, 16384)),
     "dwa.exr": exr(16384, 16384, compression=9),
     "tall.exr": exr(1, 2**30),
     "wide.hdr": HDR % (1, 10**9) + ZEROS,

@@ -73,32 +73,38 @@ std::optional<HeaderSize> sizeOfJpeg(const InputFile& file) {
                            " markers");
 }
 
-// The data window among the attributes of the (first) header, each of which is its name, its type, how long it is, and
-// that many bytes.
+// The data window, or a tile where that is larger: OpenEXR makes room for a whole one. Of the (first) header, whose
+// attributes are each its name, its type, how long it is, and that many bytes.
 std::optional<HeaderSize> sizeOfExr(const InputFile& file) {
   constexpr int kMostAttributes = 10000;
   constexpr std::uint64_t kLongestName = 255;
   std::uint64_t offset = 8;  // past magic number and version
+  std::optional<HeaderSize> largest;
+  const auto see = [&](std::uint32_t width, std::uint32_t height) {
+    const auto pixels = [](const HeaderSize& s) { return std::uint64_t{s.width} * s.height; };
+    const HeaderSize size{width, height};
+    if (!largest || pixels(size) > pixels(*largest)) largest = size;
+  };
   for (int i = 0; i < kMostAttributes; ++i) {
     const std::string head = file.bytes(offset, 2 * (kLongestName + 1) + 4 + 16);
     const std::size_t type = head.find('\0') + 1;
-    if (type <= 1) return std::nullopt;  // the header's end, or no name
+    if (type <= 1) break;  // the header's end, or no name
     const std::size_t size = head.find('\0', type) + 1;
-    if (size == 0 || size + 4 > head.size()) return std::nullopt;
+    if (size == 0 || size + 4 > head.size()) break;
     const std::size_t data = size + 4;
-    if (head.compare(0, type - 1, "dataWindow") == 0) {
-      if (data + 16 > head.size()) return std::nullopt;
-      const auto edge = [&](std::size_t k) {
-        return std::int64_t{static_cast<std::int32_t>(littleEndian(head, data + 4 * k, 4))};
+    const auto number = [&](std::size_t k) { return littleEndian(head, data + 4 * k, 4); };
+    const auto extent = [&](std::size_t k) {
+      const auto edge = [&](std::size_t e) {
+        return std::int64_t{static_cast<std::int32_t>(number(e))};
       };
-      const auto extent = [&](std::size_t k) {
-        return static_cast<std::uint32_t>(std::max<std::int64_t>(edge(k + 2) - edge(k) + 1, 0));
-      };
-      return HeaderSize{extent(0), extent(1)};
-    }
+      return static_cast<std::uint32_t>(std::max<std::int64_t>(edge(k + 2) - edge(k) + 1, 0));
+    };
+    const std::string_view name(head.data(), type - 1);
+    if (name == "dataWindow") see(extent(0), extent(1));
+    if (name == "tiles") see(number(0), number(1));
     offset += data + littleEndian(head, size, 4);
   }
-  return std::nullopt;
+  return largest;
 }
 
 // The largest of the sizes ("ispe") in the file's descriptions ("meta"), which may stand anywhere among its boxes.
